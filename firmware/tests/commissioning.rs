@@ -232,6 +232,7 @@ fn it_does_not_matter_how_long_after_a_periods_end_the_carrier_takes_the_duty_ov
         assert!(fit.predict(2_000, rows.len() as u32, 50));
         for row in &rows {
             fit.observe(row.duty, row.step);
+            fit.catch_up(u32::MAX);
         }
         let coasted = fit.predicted().expect("it predicts").mean_square.sqrt();
         println!("{coasted} counts over the long excitation");

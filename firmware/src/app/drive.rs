@@ -118,6 +118,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 self.begun_at = self.count;
                 self.ready(&job, step);
             }
+            Work::CatchUp => {
+                self.apply(0);
+                if self.memory.fit.catch_up(B::SLICE) {
+                    self.verified(&job);
+                }
+            }
             Work::Play { next, .. } => {
                 let ends = next.is_none();
                 self.keep(held, step, held_from, measured);
@@ -130,7 +136,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     let unmoved = |guard: &Guard| guard.unmoved(measured.current_ma);
                     self.fail(self.guard.as_ref().map_or(Fault::Stall, unmoved));
                 } else if self.phase == Phase::Verify {
-                    self.verified(&job);
+                    self.send_rows();
+                    self.work = Work::CatchUp;
+                    self.apply(0);
                 } else if self.phase == Phase::Tune {
                     self.tuned();
                 } else {
@@ -186,6 +194,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         }
         if self.phase == Phase::Verify && self.predicts {
             self.memory.fit.observe(duty, step);
+            self.memory.fit.catch_up(B::SLICE);
         }
         self.report.periods = self.report.periods.saturating_add(1);
         if let Work::Play {

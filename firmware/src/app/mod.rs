@@ -59,6 +59,8 @@ enum Work {
         /// None until the first duty acts.
         batch: Option<Batch>,
     },
+    /// Brakes while the prediction catches up with what was driven.
+    CatchUp,
     /// Fits.
     Fit,
     /// Simulates a step of the fitted motor.

@@ -81,7 +81,11 @@ impl Differences {
             run.step(duty, step);
             *error = run.error();
         }
-        let [e, a, b] = errors;
+        self.add(errors);
+    }
+
+    /// Adds a period, at whose end the models had these errors.
+    pub(super) fn add(&mut self, [e, a, b]: [f32; 3]) {
         let (a, b) = (a - e, b - e);
         if let Some(block) = self.blocks.get_mut(self.at / self.length.max(1)) {
             for (sum, term) in block.iter_mut().zip([e, a, b, e * a, e * b]) {

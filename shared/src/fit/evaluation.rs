@@ -9,8 +9,8 @@ use crate::trace::{OPEN, Trace};
 /// Samples between two looks at the bound: as many whole turns of any format's loop.
 const BLOCK: usize = 72;
 
-/// What a period costs, in samples of the hot loop, in which the dead time has to be looked up: a slice of work must not last longer than a
-/// device's watchdog.
+/// What a period costs, in samples of the hot loop, in which the dead time has to be looked up, or the shaft stops or starts: a slice of work
+/// must not last longer than a device's watchdog.
 const SLOW: u32 = 12;
 
 /// Cost of building a model, in samples: with friction there are eight maps to make.
@@ -235,6 +235,12 @@ impl<S: Arithmetic> Evaluation<S> {
     /// One period: the duty acts, the count is read at its end.
     pub fn step(&mut self, duty: i16, step: i16) {
         self.run_rows(&[duty], &[step], duty != OPEN, u32::MAX);
+    }
+
+    /// What the last [`step`](Self::step) cost, in samples of the hot loop.
+    pub(super) fn cost_of_step(&self) -> u32 {
+        let general = self.sliding.is_none() && !self.model.is_free();
+        if general { SLOW } else { 1 }
     }
 
     /// Counts by which the model is ahead of the reading now.

@@ -25,14 +25,23 @@ impl<S: Arithmetic> Fit<S> {
         )
     }
 
-    /// One period of what the motor predicts: the duty acted, and the reading is `step` counts further.
+    /// One period of what the motor predicts: the duty acted, and the reading is `step` counts further. The models run along it in
+    /// [`catch_up`](Self::catch_up); what they are too slow for is not predicted.
     pub fn observe(&mut self, duty: i16, step: i16) {
         if let Stage::Predict(prediction) = &mut self.stage {
-            prediction.step(&mut self.runs, duty, step);
+            prediction.observe(duty, step);
         }
     }
 
-    /// How well it predicted so far; `None` if it does not.
+    /// Runs models along at most about `samples` of the periods that were observed; says whether all have run along all of them.
+    pub fn catch_up(&mut self, samples: u32) -> bool {
+        match &mut self.stage {
+            Stage::Predict(prediction) => prediction.catch_up(&mut self.runs, samples),
+            _ => true,
+        }
+    }
+
+    /// How well it predicted the periods that the models have run along; `None` if it does not.
     // Out of line, for the sake of the stack.
     #[inline(never)]
     pub fn predicted(&mut self) -> Option<Predicted> {

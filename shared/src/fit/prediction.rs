@@ -8,6 +8,7 @@ use super::differences::Differences;
 use super::evaluation::{Runs, build};
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
+use heapless::Deque;
 use serde::{Deserialize, Serialize};
 
 /// How well a fitted motor predicts what it has not seen.
@@ -33,10 +34,20 @@ const ROUGH: f32 = 0.3;
 /// Longest displacement, of the cube's edge: three percent of an ordinary range of logarithms.
 const LONGEST: f32 = 0.003;
 
+/// Periods that may wait: where the shaft stops or starts, three models together take longer than a small core's period. As many as there is
+/// room for in what the search needs.
+const WAITING: usize = 256;
+
 /// A prediction under way.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Prediction {
     differences: Differences,
+    /// Duties and steps of the periods that the models have yet to run, and how many of the models have run the first of them.
+    waiting: Deque<(i16, i16), WAITING>,
+    turn: usize,
+    /// There was no room for a period: it and those after it are not predicted.
+    ended: bool,
+    errors: [f32; 3],
     /// By how much the two are displaced.
     moved: [f32; 2],
     window: Window,
@@ -88,6 +99,10 @@ impl Window {
 impl Prediction {
     pub(super) const EMPTY: Self = Prediction {
         differences: Differences::EMPTY,
+        waiting: Deque::new(),
+        turn: 0,
+        ended: false,
+        errors: [0.0; 3],
         moved: [0.0; 2],
         window: Window::EMPTY,
     };
@@ -139,11 +154,41 @@ impl Prediction {
     }
 
     /// One period: the duty acted, and the reading is `step` counts further.
-    pub(super) fn step<S: Arithmetic>(&mut self, runs: &mut Runs<S>, duty: i16, step: i16) {
-        self.differences.step(runs, duty, step);
-        if let Some(model) = runs[0].model() {
-            self.window.step(step, model.error());
+    pub(super) fn observe(&mut self, duty: i16, step: i16) {
+        self.ended |= self.waiting.is_full();
+        if !self.ended {
+            let _ = self.waiting.push_back((duty, step));
         }
+    }
+
+    /// Runs the models along at most about `samples` periods that wait, all together. Says whether none is left.
+    pub(super) fn catch_up<S: Arithmetic>(&mut self, runs: &mut Runs<S>, samples: u32) -> bool {
+        let mut used = 0;
+        while used < samples && !self.waiting.is_empty() {
+            used += self.step(runs);
+        }
+        self.waiting.is_empty()
+    }
+
+    /// Runs the next model along the first period that waits; returns what that cost, in samples.
+    fn step<S: Arithmetic>(&mut self, runs: &mut Runs<S>) -> u32 {
+        let Some(&(duty, step)) = self.waiting.front() else {
+            return 0;
+        };
+        let mut used = 1;
+        if let Some(model) = runs[self.turn].model() {
+            model.step(duty, step);
+            self.errors[self.turn] = model.error();
+            used = model.cost_of_step();
+        }
+        self.turn += 1;
+        if self.turn == runs.len() {
+            self.turn = 0;
+            self.waiting.pop_front();
+            self.differences.add(self.errors);
+            self.window.step(step, self.errors[0]);
+        }
+        used
     }
 
     /// How well it predicted so far.

@@ -53,6 +53,8 @@ pub const SEARCHES: u32 = 3;
 const FLOOR: f32 = 0.25;
 /// The supply's resistance is kept where no more than this part of the mean squared error is left by it.
 const EXPLAINS: f32 = 0.5;
+/// Rounds that a polish usually takes.
+const USUAL_ROUNDS: u32 = 6;
 /// Two searches end alike within this part of the mean squared error.
 const ALIKE: f32 = 0.01;
 
@@ -163,10 +165,13 @@ impl<S: Arithmetic> Fit<S> {
     /// Evaluations so far, and about how many there will be.
     pub fn progress(&self) -> (u32, u32) {
         let dim = self.now.space.dim() as u32;
-        (
-            self.evaluations,
-            self.evaluations + self.left + 3 * dim * dim,
-        )
+        let polished = match &self.stage {
+            Stage::Polish(polish) => polish.evaluations(),
+            _ => 0,
+        };
+        let done = self.evaluations + polished;
+        let of_polish = (USUAL_ROUNDS * 3 * dim * (dim - 1) / 2).saturating_sub(polished);
+        (done, done + self.left + of_polish)
     }
 
     /// Least mean squared error so far, counts².
