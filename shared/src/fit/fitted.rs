@@ -7,6 +7,11 @@ use super::{Arithmetic, Fit, Predicted, Unknown, Verdict};
 use crate::servo::Gains;
 
 impl<S: Arithmetic> Fit<S> {
+    /// What was fitted, in the order of the outcome's estimates.
+    pub fn unknowns(&self) -> &[Unknown] {
+        self.now.space.unknowns()
+    }
+
     /// Gets the best motor ready to predict about so many periods, judged over windows of `window` periods; the fit of the `fitted` periods is
     /// over. Returns false if no motor was fitted.
     pub fn predict(&mut self, fitted: usize, periods: u32, window: u32) -> bool {
@@ -60,7 +65,7 @@ impl<S: Arithmetic> Fit<S> {
             *value = self.now.space.value(k, &self.now.best);
         }
         let [gain, first_order, electrical] = values;
-        let coulomb = (self.now.space.unknowns().iter()).position(|own| *own == Unknown::Coulomb);
+        let coulomb = (self.unknowns().iter()).position(|own| *own == Unknown::Coulomb);
         let friction = coulomb.map_or(0.0, |k| self.now.space.value(k, &self.now.best));
         Gains::of(gain, [first_order, electrical], friction, off)
     }
