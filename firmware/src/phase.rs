@@ -1,8 +1,8 @@
 //! The phases of a self-identification, and the one rule that leads from each to the next.
 //!
 //! ```text
-//! Idle → Probe → Excite → Record → Fit → Verify → Simulate → Tune → Report → Idle
-//!          └────────┴────────┴──────┴───────┴────────┴────────┴────────↗  any fault, at any time
+//! Idle → Probe → Excite → Record → Fit → Verify → Simulate → Tune → Follow → Report → Idle
+//!          └────────┴────────┴──────┴───────┴────────┴────────┴───────┴───────↗  any fault, at any time
 //! ```
 //!
 //! The rule is two pure functions, [`Phase::after`] an event and [`Phase::failed`] by a fault, and whether the bridge may
@@ -34,6 +34,8 @@ pub enum Phase {
     Simulate,
     /// Drives that step in a closed loop.
     Tune,
+    /// Follows set-points in a closed loop.
+    Follow,
     /// Repeats the report until the host acknowledges it; the bridge is open.
     Report(Result<(), Fault>),
 }
@@ -71,7 +73,8 @@ impl Phase {
             (Phase::Fit, Event::Done) => Ok(Phase::Verify),
             (Phase::Verify, Event::Done) => Ok(Phase::Simulate),
             (Phase::Simulate, Event::Done) => Ok(Phase::Tune),
-            (Phase::Tune, Event::Done) => Ok(Phase::Report(Ok(()))),
+            (Phase::Tune, Event::Done) => Ok(Phase::Follow),
+            (Phase::Follow, Event::Done) => Ok(Phase::Report(Ok(()))),
             (Phase::Report(_), Event::Done) => Ok(Phase::Idle),
             (phase, event) => Err(Refused { phase, event }),
         }
@@ -91,9 +94,12 @@ impl Phase {
     #[must_use]
     pub fn bridge(self) -> Bridge {
         match self {
-            Phase::Probe | Phase::Excite | Phase::Record | Phase::Verify | Phase::Tune => {
-                Bridge::Driven
-            }
+            Phase::Probe
+            | Phase::Excite
+            | Phase::Record
+            | Phase::Verify
+            | Phase::Tune
+            | Phase::Follow => Bridge::Driven,
             Phase::Idle | Phase::Fit | Phase::Simulate | Phase::Report(_) => Bridge::Open,
         }
     }
@@ -121,6 +127,7 @@ impl Phase {
             Phase::Verify => Stage::Verify,
             Phase::Simulate => Stage::Simulate,
             Phase::Tune => Stage::Tune,
+            Phase::Follow => Stage::Follow,
             Phase::Report(_) => Stage::Report,
         }
     }
@@ -205,6 +212,7 @@ mod tests {
                 Verify,
                 Simulate,
                 Tune,
+                Follow,
                 Report(Ok(())),
                 Idle
             ]

@@ -4,7 +4,7 @@ use shared::fit::Evaluation;
 use shared::model::{Rigid, RigidPlan};
 use shared::motor::Response as Voltage;
 use shared::rng;
-use shared::servo::{Gains, Response, Servo, Step};
+use shared::servo::{Gains, Response, Servo, Step, Target};
 use shared::units::PerUnit;
 
 /// A motor in counts, periods and parts of the supply.
@@ -68,7 +68,7 @@ fn step_of(motor: &Motor, gains: &Gains, target: f32) -> Response {
     for _ in 0..(2.5 * gains.settling()) as usize + 20 {
         let now = model.error().floor() as i32;
         step.see(now);
-        let next = servo.next(now - count, target);
+        let next = servo.next(now - count, Target::Position(target as i32));
         count = now;
         model.step((duty * 32_767.0) as i16, 0);
         duty = next;
@@ -118,11 +118,18 @@ fn a_count_moves_the_duty_by_no_more_than_a_tenth_and_a_bad_motor_makes_no_nan()
         let gains = draw(seed).gains();
         let mut servo = Servo::IDLE;
         servo.begin(gains, 1.0);
-        servo.next(0, 0.0);
+        servo.next(0, Target::Position(0));
         // A count beyond the half of one that says nothing.
-        let moved = servo.next(2, 2.0) - servo.next(0, 2.0);
+        let target = Target::Position(2);
+        let moved = servo.next(2, target) - servo.next(0, target);
         assert!(moved.abs() < 0.3, "seed {seed}: {moved}, {gains:?}");
-        for target in [f32::MAX, -f32::MAX] {
+        let (far, fast) = (Target::Position, Target::Speed);
+        for target in [
+            far(i32::MAX),
+            far(i32::MIN),
+            fast(f32::MAX),
+            fast(-f32::MAX),
+        ] {
             let duty = servo.next(i32::MAX, target);
             assert!(duty.abs() <= 1.0, "seed {seed}: {duty}");
         }

@@ -30,6 +30,6 @@ pub use predict::{
 pub use recording::{SERVOID_OPEN, ServoidRecording};
 pub use servo::{
     ServoidServo, servoid_servo_acts, servoid_servo_begin, servoid_servo_next,
-    servoid_servo_settling,
+    servoid_servo_settling, servoid_servo_turn,
 };
 pub use status::ServoidStatus;

@@ -2,7 +2,7 @@
 
 use crate::fit::{Found, ServoidFit, begun};
 use crate::status::ServoidStatus;
-use shared::servo::{Gains, Servo};
+use shared::servo::{Gains, Servo, Target};
 
 /// Memory for a servo. What is in it is not for the caller, but for the gains.
 #[repr(C)]
@@ -94,8 +94,7 @@ pub unsafe extern "C" fn servoid_servo_begin(
 }
 
 /// The count went on by `step` in the period that has ended, and the duty that was given last acts now. Gives the duty of the period after
-/// this one, a part of the supply, on the way to `target`, counts from where the servo began; 0 before it has begun, or if the target is not
-/// finite.
+/// this one, a part of the supply, on the way to `target`, counts from where the servo began; 0 before it has begun.
 ///
 /// # Safety
 /// The address is null or of what it is declared as.
@@ -103,11 +102,27 @@ pub unsafe extern "C" fn servoid_servo_begin(
 pub unsafe extern "C" fn servoid_servo_next(
     servo: *mut ServoidServo,
     step: i32,
-    target: f32,
+    target: i32,
+) -> f32 {
+    // SAFETY: the caller answers for it.
+    unsafe { servo_of(servo) }.map_or(0.0, |began| {
+        began.servo.next(step, Target::Position(target))
+    })
+}
+
+/// The same on the way to a speed, counts a period; 0 before it has begun, or if the speed is not finite.
+///
+/// # Safety
+/// The address is null or of what it is declared as.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn servoid_servo_turn(
+    servo: *mut ServoidServo,
+    step: i32,
+    speed: f32,
 ) -> f32 {
     // SAFETY: the caller answers for it.
     match unsafe { servo_of(servo) } {
-        Some(began) if target.is_finite() => began.servo.next(step, target),
+        Some(began) if speed.is_finite() => began.servo.next(step, Target::Speed(speed)),
         _ => 0.0,
     }
 }

@@ -71,8 +71,8 @@ fn null_and_what_comes_too_early_are_told() {
             servoid_servo_begin(&mut servo, fit, 0.0, 1.0),
         ];
         assert_eq!(earlies, [early; 7]);
-        assert_eq!(servoid_servo_next(&mut servo, 1, 1.0), 0.0);
-        assert_eq!(servoid_servo_next(null_mut(), 1, 1.0), 0.0);
+        assert_eq!(servoid_servo_next(&mut servo, 1, 1), 0.0);
+        assert_eq!(servoid_servo_turn(null_mut(), 1, 1.0), 0.0);
         assert_eq!(servoid_servo_settling(&mut servo), 0.0);
         servoid_servo_acts(&mut servo, 1.0);
     }
@@ -138,8 +138,11 @@ fn no_recording_and_no_settings_lead_to_a_panic() {
             assert!(off.is_finite() || refused != ServoidStatus::Done);
             if servoid_servo_begin(&mut servo, &mut *fit, 0.1, 0.9) == ServoidStatus::Done {
                 for target in [f32::MAX, 0.0, f32::NAN, -f32::INFINITY, 1e3] {
-                    let duty = servoid_servo_next(&mut servo, random.next_u32() as i32, target);
-                    assert!(duty.abs() <= 0.9, "turn {turn}: {duty}");
+                    let step = random.next_u32() as i32;
+                    let duty = servoid_servo_turn(&mut servo, step, target);
+                    let other = servoid_servo_next(&mut servo, -step, target as i32);
+                    let within = duty.abs() <= 0.9 && other.abs() <= 0.9;
+                    assert!(within, "turn {turn}: {duty} {other}");
                 }
                 ended += 1;
             }

@@ -25,6 +25,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Length of a driving phase in periods, where it is known in advance.
     pub(super) fn length(&self, phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
+            (_, Kind::Follow) if phase != Phase::Follow => 0,
             (Phase::Probe, Kind::Play) => 0,
             (Phase::Probe, _) => Script::GROWING_STEPS * Self::periods(PROBE_STEP_US),
             (Phase::Excite, Kind::Play) => u32::MAX,
@@ -32,6 +33,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             (Phase::Record, kind) if kind.fits() => job.record.into(),
             (Phase::Verify, kind) if kind.fits() => job.verify,
             (Phase::Tune, Kind::Tune) => self.memory.trial.periods(),
+            (Phase::Follow, Kind::Follow) => u32::MAX,
             _ => 0,
         }
     }
@@ -48,7 +50,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             (Phase::Excite, _) => Which::Excite { coast: job.coast },
             (Phase::Record, _) => Which::Record,
             (Phase::Verify, _) => Which::Verify,
-            (Phase::Tune, _) => return Some(Script::Servo),
+            (Phase::Tune | Phase::Follow, _) => return Some(Script::Servo),
             _ => return None,
         };
         let length = self.length(self.phase, job);
@@ -152,8 +154,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Prepares the next duty.
     #[inline(never)]
     pub(super) fn ready(&mut self, job: &Job, step: i32) {
-        let closed_loop = self.phase == Phase::Tune;
-        let asked = closed_loop.then(|| self.closed_loop(step)).flatten();
+        let closed_loop = matches!(self.phase, Phase::Tune | Phase::Follow);
+        let asked = match self.phase {
+            Phase::Tune => self.closed_loop(step),
+            Phase::Follow => self.follow(step),
+            _ => None,
+        };
         let Work::Play { script, next, .. } = &mut self.work else {
             return;
         };

@@ -1,5 +1,6 @@
 //! The application's side of the link: identification, arming and starting, retransmission of the recording.
 
+use super::follow::Following;
 use super::recording::Batch;
 use super::tune::Trial;
 use super::{App, NO_REPORT};
@@ -70,6 +71,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 }
             }
             ToDevice::Plan(part) => self.plan(&part),
+            ToDevice::SetPoint(set_point) => {
+                if self.phase == Phase::Follow {
+                    self.following.take(set_point);
+                }
+            }
             ToDevice::Resend { first } => self.resend(first),
             ToDevice::Describe => {
                 let details = Details {
@@ -195,6 +201,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if job.kind == Kind::Play && self.memory.plan.whole(plan).is_none() {
             return Err(Refusal::BadPlan);
         }
+        if job.kind == Kind::Follow {
+            let kept = self.kept.as_ref().ok_or(Refusal::NotTuned)?;
+            self.following = Following::new(kept, &job);
+        }
         self.run = Some(nonce);
         self.at = 0;
         self.begun_at = self.count;
@@ -213,7 +223,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             current_ma: B::CURRENT_LIMIT_MA,
             resolution_ma: B::CURRENT_RESOLUTION_MA,
         };
-        self.guard = Some(Guard::new(&job, rating, self.count));
+        let mut guard = Guard::new(&job, rating, self.count);
+        if let (Kind::Follow, Some(kept)) = (job.kind, &self.kept) {
+            guard.learn(&kept.guard);
+        }
+        self.guard = Some(guard);
         self.bridge = Bridge::new(job.supply_mv);
         log::started(&job);
         self.job = Some(job);

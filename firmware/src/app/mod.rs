@@ -20,6 +20,7 @@
 //! | `recording`, `outbox` | the data of a run; the send buffer |
 
 mod drive;
+mod follow;
 mod link;
 mod outbox;
 mod recording;
@@ -31,6 +32,7 @@ use crate::board::Board;
 use crate::guard::{Guard, Tripped};
 use crate::log;
 use crate::phase::{Bridge, Event, Fault, Phase};
+use follow::{Following, Kept};
 use outbox::Outbox;
 use recording::Batch;
 pub use recording::Recording;
@@ -129,6 +131,9 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     silence: u32,
     repeat: u32,
     report: Report,
+    /// The servo of the last tuning, and one under way.
+    kept: Option<Kept>,
+    following: Following,
     /// The fitted motor is ready to predict.
     predicts: bool,
     failure: Option<Tripped>,
@@ -177,6 +182,8 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             silence: 0,
             repeat: 0,
             report: NO_REPORT,
+            kept: None,
+            following: Following::NONE,
             predicts: false,
             failure: None,
             failed_in: (Phase::Idle, 0),

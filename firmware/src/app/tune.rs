@@ -1,9 +1,11 @@
 //! From a fitted motor to a servo: gains, a step that is simulated with the fitted motor, and the same step of the motor.
 
+use super::follow::Kept;
 use super::{App, Work};
 use crate::board::Board;
+use crate::phase::Phase;
 use shared::fit::{Arithmetic, Grade, Verdict};
-use shared::servo::{Response, Servo, Step};
+use shared::servo::{Response, Servo, Step, Target};
 use shared::wire::{Job, Tuned};
 
 /// Part of the largest duty that a step may ask for.
@@ -40,7 +42,7 @@ pub(super) struct Trial {
 }
 
 /// A part of the supply as a duty, which is never the one that stands for an open bridge.
-fn as_duty(part: f32) -> i16 {
+pub(super) fn as_duty(part: f32) -> i16 {
     (part * 32_767.0) as i16
 }
 
@@ -69,8 +71,9 @@ impl Trial {
     }
 
     /// Counts to where it goes.
-    fn target(&self) -> f32 {
-        if self.back { -self.counts } else { self.counts }
+    fn target(&self) -> i32 {
+        let counts = self.counts as i32;
+        if self.back { -counts } else { counts }
     }
 
     /// Counts that were travelled, along it.
@@ -119,7 +122,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         trial.step.begin(trial.counts);
         self.report.tuned = Some(Tuned {
             gains,
-            step: trial.target() as i32,
+            step: trial.target(),
             predicted: Response::default(),
             measured: None,
         });
@@ -134,7 +137,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         for _ in 0..B::SLICE / SAMPLES + 1 {
             let read = trial.at;
             trial.step.see(trial.along(read));
-            let target = trial.target();
+            let target = Target::Position(trial.target());
             let next = trial.servo.next(read - trial.read, target);
             // The duty that the last reading gave acts until the next one. The motor began in the middle of a count.
             let angle = memory.fit.moved(as_duty(trial.duty));
@@ -174,7 +177,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             return None;
         }
         trial.over += 1;
-        let target = trial.target();
+        let target = Target::Position(trial.target());
         Some(as_duty(trial.servo.next(step, target)))
     }
 
@@ -182,15 +185,21 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn tuned(&mut self) {
         if let Some(tuned) = &mut self.report.tuned {
             tuned.measured = Some(self.memory.trial.step.response());
+            self.kept = self.guard.as_ref().map(|guard| Kept {
+                gains: tuned.gains,
+                amplitude: self.report.amplitude,
+                guard: guard.clone(),
+            });
         }
         self.done();
     }
 
     /// What the guard made of the next duty.
     pub(super) fn servo_acts(&mut self, duty: i16) {
-        self.memory
-            .trial
-            .servo
-            .acts(f32::from(duty) * (1.0 / 32_768.0));
+        let part = f32::from(duty) * (1.0 / 32_768.0);
+        match self.phase {
+            Phase::Follow => self.following.acts(part),
+            _ => self.memory.trial.servo.acts(part),
+        }
     }
 }

@@ -106,6 +106,12 @@ impl Guard {
         }
     }
 
+    /// Takes over what the probe of another run showed of the same motor.
+    pub fn learn(&mut self, from: &Guard) {
+        self.motion.learn(&from.motion);
+        self.step_ma = from.step_ma;
+    }
+
     /// Largest duty of a probe: half the supply where nothing is known that bounds the current.
     pub fn probe_to(&self, full: u16, senses_current: bool) -> i16 {
         let known = senses_current || self.current.knows_resistance();

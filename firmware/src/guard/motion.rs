@@ -130,6 +130,16 @@ impl Motion {
         self.turning = self.turning.min(duty.max(1));
     }
 
+    /// Takes over what the probe of another run showed of the same motor.
+    pub fn learn(&mut self, from: &Motion) {
+        self.window = from.window;
+        self.strong = from.strong;
+        self.turning = from.turning;
+        self.dithers = from.dithers;
+        self.acceleration = from.acceleration;
+        self.rest = Rest::of(from.acceleration, self.shortest);
+    }
+
     /// Nobody has looked for a while.
     pub fn pause(&mut self) {
         self.last_step = None;
@@ -241,9 +251,14 @@ impl Motion {
             return Ok(());
         }
         let to_and_fro = step.abs() == 1 && step == -self.toggle;
-        self.toggles = if to_and_fro { self.toggles + 1 } else { 0 };
-        self.toggle = if step.abs() == 1 { step } else { 0 };
         let turns = drive.unsigned_abs() >= self.turning.unsigned_abs();
+        // A shaft that a servo holds may stand on an edge for hours; the probe's first steps, where any drive may turn it, count.
+        let counts = turns || self.strong == i16::MAX;
+        self.toggles = match to_and_fro {
+            true => self.toggles + u32::from(counts),
+            false => 0,
+        };
+        self.toggle = if step.abs() == 1 { step } else { 0 };
         if turns && !self.dithers && self.toggles >= TOGGLES {
             return Err(Tripped::by(Fault::EncoderLine));
         }

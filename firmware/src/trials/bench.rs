@@ -109,7 +109,12 @@ impl Bench {
         self.count = self.count.wrapping_add(counts);
     }
 
-    /// The motor.
+    /// What the encoder has counted.
+    pub fn counts(&self) -> i32 {
+        self.count
+    }
+
+    /// The motor as it is now.
     pub fn motor(&self) -> &Motor {
         &self.motor
     }

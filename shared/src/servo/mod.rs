@@ -11,6 +11,6 @@ mod controller;
 mod gains;
 mod response;
 
-pub use controller::Servo;
+pub use controller::{Servo, Target};
 pub use gains::Gains;
 pub use response::{Response, Step};

@@ -40,6 +40,19 @@ pub enum ToDevice {
     },
     /// What are you made of? Answered by [`ToHost::Details`].
     Describe,
+    /// Where a run of [`Kind::Follow`] is to go.
+    SetPoint(SetPoint),
+}
+
+/// A set-point of a servo.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SetPoint {
+    /// Counts from where the run began.
+    Position(i32),
+    /// 65,536ths of a count a period.
+    Speed(i32),
+    /// To rest, and to the end of the run.
+    End,
 }
 
 /// To the host.
@@ -199,6 +212,8 @@ pub enum Stage {
     Simulate,
     /// Drives the step in a closed loop.
     Tune,
+    /// Follows set-points in a closed loop.
+    Follow,
 }
 
 /// Why a command was refused.
@@ -213,6 +228,8 @@ pub enum Refusal {
     BadJob,
     /// The plan is too long for the device, or not the one that it holds.
     BadPlan,
+    /// There is no servo: the device was not tuned since it powered up.
+    NotTuned,
 }
 
 /// What kind of run.
@@ -227,6 +244,8 @@ pub enum Kind {
     Play,
     /// As [`Commission`](Kind::Commission); then simulate and tune, if the numbers are good enough for it.
     Tune,
+    /// Follow set-points with the servo of the last [`Tune`](Kind::Tune).
+    Follow,
 }
 
 impl Kind {

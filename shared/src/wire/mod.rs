@@ -21,7 +21,7 @@ pub use fault::Fault;
 pub use frame::{Deframer, LONGEST_FRAME, encode};
 pub use message::{
     About, Details, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows,
-    Stage, ToDevice, ToHost, Tuned,
+    SetPoint, Stage, ToDevice, ToHost, Tuned,
 };
 pub use plan::{MOST_SEGMENTS, PLAN_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 pub use reset::Reset;

@@ -112,7 +112,7 @@ int main(void) {
   int32_t step = 0;
   float acts = 0.0f;
   for (unsigned k = 0; k < 500; k += 1) {
-    const float next = servoid_servo_next(&servo, step, COUNTS_PER_REV);
+    const float next = servoid_servo_next(&servo, step, (int32_t)COUNTS_PER_REV);
     step = motor_period((int16_t)(acts * 32767.0f));
     count += step;
     acts = next;

@@ -36,7 +36,7 @@ int32_t last;
 Phase phase = Phase::Record;
 unsigned period;
 float acts;
-float target;
+int32_t target;
 uint32_t seed = 1;
 
 void edge() { count = count + ((digitalRead(A) == digitalRead(B)) ? 1 : -1); }

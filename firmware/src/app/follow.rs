@@ -1,0 +1,105 @@
+//! The servo follows set-points that the host sends.
+
+use super::App;
+use super::tune::as_duty;
+use crate::board::Board;
+use crate::guard::Guard;
+use shared::fit::Arithmetic;
+use shared::servo::{Gains, Servo, Target};
+use shared::wire::{Job, SetPoint};
+
+/// A shaft that has not moved for this long, after the last set-point, rests.
+const REST_US: u32 = 50_000;
+/// One that goes on for longer than this will not rest.
+const LONGEST_US: u32 = 2_000_000;
+/// Part of the limit of speed that is asked for.
+const OF_LIMIT: f32 = 0.8;
+/// What is left to the limit of travel, a part of it.
+const MARGIN: u32 = 16;
+
+/// What was tuned: gains, the largest duty that they were tuned for, and what the guards know of the motor.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    pub(super) gains: Gains,
+    pub(super) amplitude: i16,
+    pub(super) guard: Guard,
+}
+
+/// A servo on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Following {
+    servo: Servo,
+    target: Target,
+    /// Largest position, counts; none if zero.
+    travel: u32,
+    /// It is to stop: periods since, and periods at rest.
+    stops: Option<(u32, u32)>,
+}
+
+impl Following {
+    /// Of nothing.
+    pub(super) const NONE: Self = Following {
+        servo: Servo::IDLE,
+        target: Target::Position(0),
+        travel: 0,
+        stops: None,
+    };
+
+    /// At rest where it is.
+    pub(super) fn new(kept: &Kept, job: &Job) -> Self {
+        let mut own = Following {
+            travel: job.limits.travel,
+            ..Self::NONE
+        };
+        let limit = kept.amplitude.min(job.limits.duty);
+        own.servo
+            .begin(kept.gains, f32::from(limit) * (1.0 / 32_768.0));
+        if job.limits.speed > 0 {
+            own.servo
+                .no_faster_than(OF_LIMIT * f32::from(job.limits.speed));
+        }
+        own
+    }
+
+    /// Takes a set-point.
+    pub(super) fn take(&mut self, set_point: SetPoint) {
+        match set_point {
+            // It stops for good.
+            _ if self.stops.is_some() => {}
+            SetPoint::Position(counts) => {
+                let most = match self.travel {
+                    0 => u32::MAX,
+                    travel => travel - travel / MARGIN,
+                };
+                let most = i32::try_from(most).unwrap_or(i32::MAX);
+                self.target = Target::Position(counts.clamp(-most, most));
+            }
+            SetPoint::Speed(speed) => self.target = Target::Speed(speed as f32 * (1.0 / 65_536.0)),
+            SetPoint::End => {
+                self.target = Target::Speed(0.0);
+                self.stops = Some((0, 0));
+            }
+        }
+    }
+
+    /// What acts in place of the next duty.
+    pub(super) fn acts(&mut self, part: f32) {
+        self.servo.acts(part);
+    }
+}
+
+impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
+    /// The next duty on the way to the set-point; `None` where it has come to rest after the last one.
+    #[inline(never)]
+    pub(super) fn follow(&mut self, step: i32) -> Option<i16> {
+        let following = &mut self.following;
+        if let Some((since, still)) = &mut following.stops {
+            *since += 1;
+            *still = if step == 0 { *still + 1 } else { 0 };
+            if *still > Self::periods(REST_US) || *since > Self::periods(LONGEST_US) {
+                return None;
+            }
+        }
+        Some(as_duty(following.servo.next(step, following.target)))
+    }
+}

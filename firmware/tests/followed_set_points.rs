@@ -1,0 +1,191 @@
+//! A motor that has tuned itself follows the set-points that its host sends, under the same guards.
+
+mod drawing;
+
+use drawing::{Drawn, commissioning, draw};
+use firmware::app::{Memory, Recording};
+use firmware::phase::{Fault, Phase};
+use firmware::trials::host::Host;
+use shared::fit::Settings;
+use shared::servo::Gains;
+use shared::trace::OPEN;
+use shared::wire::*;
+
+type Device<'b> = Host<'b, f32, 2000, true>;
+
+fn tuning(drawn: &Drawn, seed: u64) -> Job {
+    let common = commissioning(&drawn.motor, seed, 4_000);
+    Job {
+        kind: Kind::Tune,
+        fit: Settings {
+            supply: false,
+            ..common.fit
+        },
+        ..common
+    }
+}
+
+/// Runs periods until the run has ended.
+fn to_its_end(host: &mut Device<'_>) -> Result<Report, Box<Failure>> {
+    loop {
+        let mut outcome = None;
+        host.period(|message| match message {
+            ToHost::Report(report) => outcome = Some(Ok(report)),
+            ToHost::Failed(failure) => outcome = Some(Err(Box::new(failure))),
+            _ => {}
+        });
+        if let Some(outcome) = outcome {
+            return outcome;
+        }
+    }
+}
+
+/// Tunes the motor and begins to follow within limits; gives the gains.
+fn followed<T>(
+    seed: u64,
+    limits: impl Fn(&Gains, &Drawn) -> Limits,
+    body: impl FnOnce(&mut Device<'_>, &Gains, &Drawn) -> T,
+) -> Option<T> {
+    let drawn = draw(seed);
+    let bench = drawn.bench();
+    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
+    let mut host = Device::new(&bench, &mut memory, &mut recording);
+    let job = tuning(&drawn, seed);
+    let follow = |limits: Limits| Job {
+        kind: Kind::Follow,
+        limits,
+        ..job
+    };
+    host.start(follow(job.limits));
+    assert_eq!(host.app.phase(), Phase::Idle, "nothing was tuned");
+    assert!(host.start(job));
+    let gains = to_its_end(&mut host).ok()?.tuned?.gains;
+    host.send(&ToDevice::Hello);
+    host.period(|_| {});
+    let limits = limits(&gains, &drawn);
+    assert!(host.start(follow(limits)), "seed {seed}");
+    // It rests for a while first.
+    for _ in 0..100 {
+        host.period(|_| {});
+    }
+    assert_eq!(host.app.phase(), Phase::Follow, "seed {seed}");
+    Some(body(&mut host, &gains, &drawn))
+}
+
+fn usual(_: &Gains, _: &Drawn) -> Limits {
+    Limits {
+        duty: 32_000,
+        time: 200_000,
+        ..Limits::NONE
+    }
+}
+
+#[test]
+fn positions_are_reached_and_speeds_are_kept() {
+    let motors = testing::length::cases(300, 40);
+    let (mut tuned, mut missed) = (0, Vec::new());
+    for seed in 0..motors {
+        let answers = followed(seed, usual, |host, gains, drawn| {
+            let rev = drawn.motor.counts_per_rev as i32;
+            let begun = host.bench.borrow().counts();
+            let mut answers = Vec::new();
+            for target in [rev / 8, 10 * rev, 0] {
+                host.send(&ToDevice::SetPoint(SetPoint::Position(target)));
+                // As long as the way takes at most, and to settle.
+                let fastest = 0.5 / gains.back_emf;
+                let way = 1.5 * 10.0 * rev as f32 / fastest + 6.0 * gains.time_constant;
+                for _ in 0..(way + 3.0 * gains.settling()) as usize + 200 {
+                    host.period(|_| {});
+                }
+                let left = host.bench.borrow().counts() - begun - target;
+                if left.abs() > 2.max(rev / 200) {
+                    answers.push(format!("{left} counts from {target}, {rev} a revolution"));
+                }
+            }
+            let speed = 0.3 / gains.back_emf;
+            let set_point = SetPoint::Speed((speed * 65_536.0) as i32);
+            host.send(&ToDevice::SetPoint(set_point));
+            let settled = (3.0 * gains.settling()) as usize + 200;
+            for _ in 0..settled {
+                host.period(|_| {});
+            }
+            let from = host.bench.borrow().counts();
+            let periods = 200.max((200.0 / speed) as usize);
+            for _ in 0..periods {
+                host.period(|_| {});
+            }
+            let went = (host.bench.borrow().counts() - from) as f32 / periods as f32;
+            if (went / speed - 1.0).abs() > 0.02 {
+                answers.push(format!("{went} counts a period for {speed}"));
+            }
+            host.send(&ToDevice::SetPoint(SetPoint::End));
+            if let Err(failure) = to_its_end(host) {
+                answers.push(format!("{failure:?}"));
+            }
+            assert_eq!(host.bench.borrow().driven, None, "seed {seed}");
+            answers
+        });
+        let Some(answers) = answers else { continue };
+        tuned += 1;
+        if !answers.is_empty() {
+            println!("seed {seed}: {answers:?}");
+            missed.push(seed);
+        }
+    }
+    println!(
+        "{tuned} of {motors} tuned; {} missed: {missed:?}",
+        missed.len()
+    );
+    assert!(tuned * 10 >= motors * 9, "{tuned} of {motors}");
+    assert!(missed.len() as u64 * 20 <= tuned, "{missed:?}");
+}
+
+#[test]
+fn limits_hold_and_a_silent_host_opens_the_bridge() {
+    let seed = 3;
+    // A set-point beyond the limits of travel and speed is followed up to them.
+    let within = followed(
+        seed,
+        |gains, drawn| Limits {
+            travel: 4 * drawn.motor.counts_per_rev as u32,
+            speed: (0.3 / gains.back_emf) as u16,
+            ..usual(gains, drawn)
+        },
+        |host, _, drawn| {
+            host.send(&ToDevice::SetPoint(SetPoint::Position(i32::MAX)));
+            let begun = host.bench.borrow().counts();
+            for _ in 0..20_000 {
+                host.period(|message| {
+                    assert!(!matches!(message, ToHost::Failed(_)), "{message:?}")
+                });
+            }
+            let went = (host.bench.borrow().counts() - begun) as f32 / drawn.motor.counts_per_rev;
+            assert!((3.5..4.0).contains(&went), "{went}");
+            host.alive = false;
+            let failure = to_its_end(host).expect_err("the host is silent");
+            assert_eq!(failure.fault, Fault::LinkLost);
+            assert_eq!(host.bench.borrow().driven, None);
+            // Nobody heard it: it may not go on when somebody speaks again.
+            host.alive = true;
+            host.send(&ToDevice::SetPoint(SetPoint::Position(0)));
+            for _ in 0..1_000 {
+                host.period(|_| {});
+                assert!(matches!(host.bench.borrow().driven, None | Some(OPEN)));
+            }
+        },
+    );
+    assert!(within.is_some(), "seed {seed} was not tuned");
+    let reversed = followed(seed, usual, |host, gains, _| {
+        host.send(&ToDevice::SetPoint(SetPoint::Speed(
+            (0.3 / gains.back_emf * 65_536.0) as i32,
+        )));
+        for _ in 0..1_000 {
+            host.period(|_| {});
+        }
+        host.bench.borrow_mut().locked = true;
+        let failure = to_its_end(host).expect_err("the shaft is held");
+        println!("{failure:?}");
+        assert_eq!(host.bench.borrow().driven, None);
+    });
+    assert!(reversed.is_some(), "seed {seed} was not tuned");
+}
