@@ -72,9 +72,12 @@ fn followed<T>(
     Some(body(&mut host, &gains, &drawn))
 }
 
-fn usual(_: &Gains, _: &Drawn) -> Limits {
+fn usual(_: &Gains, drawn: &Drawn) -> Limits {
+    let stall_ma = drawn.motor.supply / drawn.motor.resistance * 1e3;
     Limits {
         duty: 32_000,
+        // Where none is drawn, too: a loop asks for the whole supply at once.
+        current_ma: (drawn.limit.unwrap_or(0.8) * stall_ma) as u32,
         time: 200_000,
         ..Limits::NONE
     }
@@ -105,7 +108,7 @@ fn positions_are_reached_and_speeds_are_kept() {
             let speed = 0.3 / gains.back_emf;
             let set_point = SetPoint::Speed((speed * 65_536.0) as i32);
             host.send(&ToDevice::SetPoint(set_point));
-            let settled = (3.0 * gains.settling()) as usize + 200;
+            let settled = (3.0 * gains.settling() + 3.0 * gains.time_constant) as usize + 200;
             for _ in 0..settled {
                 host.period(|_| {});
             }

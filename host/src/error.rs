@@ -3,8 +3,9 @@
 use crate::device::DeviceError;
 use crate::prove::StoreError;
 use servoid_identify::steady::SteadyError;
+use servoid_io::columns::ColumnsError;
 use servoid_io::input::{CurveError, MotorFileError, ReadError};
-use servoid_io::output::{CommandsError, WriteError};
+use servoid_io::output::WriteError;
 use servoid_plant::BenchError;
 use servoid_results::device_run::FolderError;
 use servoid_results::export::ExportError;
@@ -26,7 +27,7 @@ pub enum Error {
     Motor(#[from] MotorFileError),
     /// A file of commands that cannot be read.
     #[error(transparent)]
-    Commands(#[from] CommandsError),
+    Columns(#[from] ColumnsError),
     /// The virtual bench refuses.
     #[error(transparent)]
     Bench(#[from] BenchError),

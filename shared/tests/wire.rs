@@ -129,6 +129,7 @@ fn to_device() -> Vec<ToDevice> {
         }),
         ToDevice::Resend { first: 48 },
         ToDevice::Describe,
+        ToDevice::SetPoint(SetPoint::Position(-1_000_000)),
     ]
 }
 

@@ -158,6 +158,19 @@ fn a_motor_makes_a_servo_of_itself_and_its_gains_go_where_they_are_good() {
     );
     assert!(of("measured", "left_counts").abs() <= 2.0, "{tuned}");
     assert!(out.join("tune.csv").exists());
+    // The device keeps its servo, and follows a table of set-points.
+    let course = folder.path().join("course.csv");
+    fs::write(&course, "t_s,angle_rad\n0,6\n0.6,-3\n1.2,1\n").unwrap();
+    let course = course.display().to_string();
+    let (followed, error) = identify(
+        "follow",
+        &device,
+        &out.with_extension("followed"),
+        &[&course],
+    );
+    assert_eq!(error, None);
+    let reached = followed.unwrap()["followed"]["reached"].as_f64().unwrap();
+    assert!((reached - 1.0).abs() < 0.02, "{reached}");
     // Of a motor that is good for nothing no gains are computed, unless they are asked for with force.
     let out_text = out.display().to_string();
     let export = |more: &[&str]| {

@@ -370,15 +370,22 @@ enum ServoidStatus servoid_servo_begin(struct ServoidServo *servo,
 
 /**
  * The count went on by `step` in the period that has ended, and the duty that was given last acts now. Gives the duty of the period after
- * this one, a part of the supply, on the way to `target`, counts from where the servo began; 0 before it has begun, or if the target is not
- * finite.
+ * this one, a part of the supply, on the way to `target`, counts from where the servo began; 0 before it has begun.
  *
  * # Safety
  * The address is null or of what it is declared as.
  */
 float servoid_servo_next(struct ServoidServo *servo,
                          int32_t step,
-                         float target);
+                         int32_t target);
+
+/**
+ * The same on the way to a speed, counts a period; 0 before it has begun, or if the speed is not finite.
+ *
+ * # Safety
+ * The address is null or of what it is declared as.
+ */
+float servoid_servo_turn(struct ServoidServo *servo, int32_t step, float speed);
 
 /**
  * The next duty will be another than was given, as behind a limit of the current.

@@ -145,12 +145,14 @@ fn driven(verb: &str, bench: &Bench, motor: &Motor, out: &Path, more: &[&str]) -
         &supply,
         "--counts-per-rev",
         &counts,
-        "--verify",
-        "2",
         "--out",
         out.to_str().unwrap(),
     ];
-    servoid(&[&fixed, more].concat())
+    let verified: &[&str] = match verb {
+        "follow" => &[],
+        _ => &["--verify", "2"],
+    };
+    servoid(&[&fixed, verified, more].concat())
 }
 
 fn saved(out: &Path) -> Value {
@@ -232,7 +234,7 @@ fn the_images_of_the_other_boards_identify_a_motor_too() {
     }
 }
 
-/// The step that an image drives in a closed loop is the one that it predicted.
+/// The step that an image drives in a closed loop is the one that it predicted, and set-points are followed.
 #[test]
 fn the_images_make_a_servo_of_a_motor() {
     let motor = &MOTORS[5];
@@ -251,6 +253,23 @@ fn the_images_make_a_servo_of_a_motor() {
             "{board}: {tuned}"
         );
         assert!(out.join("tune.csv").exists());
+        // The same device, still powered: far and back, and a speed.
+        for (flag, set_point, within) in [
+            ("--angle", 62.8, 0.02),
+            ("--angle", -1.0, 0.02),
+            ("--speed", 80.0, 1.0),
+        ] {
+            let out = folder(&format!("{board} {flag} {set_point}")).join("run");
+            let value = format!("{flag}={set_point}");
+            let output = driven("follow", &bench, motor, &out, &[&value]);
+            assert!(output.status.success(), "{board} {value}: {output:?}");
+            let reached = saved(&out)["followed"]["reached"].as_f64().unwrap();
+            println!("{board} {value}: {reached}");
+            assert!(
+                (reached - set_point).abs() < within,
+                "{board} {value}: {reached}"
+            );
+        }
     }
 }
 

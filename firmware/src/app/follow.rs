@@ -10,8 +10,8 @@ use shared::wire::{Job, SetPoint};
 
 /// A shaft that has not moved for this long, after the last set-point, rests.
 const REST_US: u32 = 50_000;
-/// One that goes on for longer than this will not rest.
-const LONGEST_US: u32 = 2_000_000;
+/// One that goes on for longer than this, slowly, will not rest.
+const LONGEST_US: u32 = 500_000;
 /// Part of the limit of speed that is asked for.
 const OF_LIMIT: f32 = 0.8;
 /// What is left to the limit of travel, a part of it.

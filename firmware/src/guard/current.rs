@@ -93,6 +93,15 @@ impl Current {
         current
     }
 
+    /// Takes over what another run showed of the same winding: what it draws at rest, and how fast which drive makes it.
+    pub fn learn(&mut self, from: &Current) {
+        self.stall_ma = self.stall_ma.max(from.stall_ma);
+        self.long.fastest = from.long.fastest;
+        self.short.fastest = from.short.fastest;
+        self.strongest = from.strongest;
+        self.bound();
+    }
+
     /// Limit of the current, mA; zero for none.
     pub fn limit_ma(&self) -> u32 {
         self.limit_ma

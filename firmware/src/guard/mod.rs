@@ -106,9 +106,10 @@ impl Guard {
         }
     }
 
-    /// Takes over what the probe of another run showed of the same motor.
+    /// Takes over what another run showed of the same motor.
     pub fn learn(&mut self, from: &Guard) {
         self.motion.learn(&from.motion);
+        self.current.learn(&from.current);
         self.step_ma = from.step_ma;
     }
 

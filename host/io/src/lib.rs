@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `channel` | what a log may have a column of |
+//! | `columns` | plain tables of numbers over time |
 //! | `recording` | one recording in SI units and encoder counts |
 //! | `position_loop` | from target angles to the volts of a drive that closes a position loop |
 //! | `input` | readers of foreign CSV files and of `motor.toml` |
@@ -14,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 pub mod channel;
+pub mod columns;
 pub mod excitation;
 pub mod input;
 pub mod median;

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use crate::columns::{ColumnsError, columns};
 use crate::recording::Recording;
 
 /// A file that could not be written; what stood there before still does.
@@ -240,18 +241,6 @@ pub fn write_csv(
     Ok(())
 }
 
-/// A file of commands that cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{}: {why}", .path.display(), .line.map_or_else(String::new, |line| format!(", line {line}")))]
-pub struct CommandsError {
-    /// The file.
-    pub path: PathBuf,
-    /// Its line, from 1, where one is at fault.
-    pub line: Option<u64>,
-    /// What is wrong with it.
-    pub why: String,
-}
-
 /// A command sequence, which is what a recording has before it is recorded: columns of equal length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CommandSequence {
@@ -269,58 +258,22 @@ impl CommandSequence {
     /// # Errors
     /// A file that cannot be read, a column that is missing, a cell that is no number, times that do not increase; with
     /// file and line.
-    pub fn read(path: &Path) -> Result<Self, CommandsError> {
-        let wrong = |line: Option<u64>, why: String| CommandsError {
-            path: path.to_path_buf(),
-            line,
-            why,
+    pub fn read(path: &Path) -> Result<Self, ColumnsError> {
+        const USUAL: &str =
+            "a plan has t_s,voltage_v and may have enabled, see servoid simulate --plan";
+        let (time_s, [voltage_v, enabled]) = columns(path, ["voltage_v", "enabled"], USUAL)?;
+        let Some(voltage_v) = voltage_v else {
+            return Err(ColumnsError {
+                path: path.to_path_buf(),
+                line: None,
+                why: format!("no column `voltage_v`; {USUAL}"),
+            });
         };
-        let reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_path(path);
-        let mut reader = reader.map_err(|error| wrong(None, error.to_string()))?;
-        let header = reader
-            .headers()
-            .map_err(|error| wrong(None, error.to_string()))?
-            .clone();
-        let column = |name: &str| {
-            header
-                .iter()
-                .position(|found| found.eq_ignore_ascii_case(name))
-        };
-        let needed = |name: &str| {
-            column(name).ok_or_else(|| {
-                wrong(None, format!("no column `{name}`; a plan has t_s,voltage_v and may have enabled, see servoid simulate --plan"))
-            })
-        };
-        let (time, voltage, enabled) = (needed("t_s")?, needed("voltage_v")?, column("enabled"));
-        let mut read = CommandSequence {
-            time_s: Vec::new(),
-            voltage_v: Vec::new(),
-            enabled: enabled.map(|_| Vec::new()),
-        };
-        for record in reader.records() {
-            let record = record.map_err(|error| {
-                wrong(error.position().map(csv::Position::line), error.to_string())
-            })?;
-            let line = record.position().map(csv::Position::line);
-            let number = |column: usize| {
-                let cell = record.get(column).unwrap_or("");
-                let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-                number.ok_or_else(|| wrong(line, format!("`{cell}` is no number")))
-            };
-            let at = number(time)?;
-            if read.time_s.last().is_some_and(|last| *last >= at) {
-                return Err(wrong(line, format!("t_s {at} does not increase")));
-            }
-            read.time_s.push(at);
-            read.voltage_v.push(number(voltage)?);
-            if let (Some(column), Some(read)) = (enabled, &mut read.enabled) {
-                read.push(number(column)? != 0.0);
-            }
-        }
-        Ok(read)
+        Ok(CommandSequence {
+            time_s,
+            voltage_v,
+            enabled: enabled.map(|column| column.iter().map(|number| *number != 0.0).collect()),
+        })
     }
 }
 

@@ -33,6 +33,8 @@ pub enum DeviceVerb {
     Commission(CommissionArgs),
     /// Commissions a motor, computes the gains of a position and a speed loop on the device, and tries them by a step there
     Tune(CommissionArgs),
+    /// Has the servo that `tune` made follow angles or speeds, and records
+    Follow(FollowArgs),
     /// Excites the motor and records, without a fit on the device
     Record(RecordArgs),
     /// As record, and prints each period as a line of CSV as it comes
@@ -216,6 +218,37 @@ pub struct CommissionArgs {
     /// Effects that the device fits beside the linear machine; --with '' for none
     #[arg(long, value_delimiter = ',', default_value = "coulomb", value_name = "EFFECT,…", value_parser = fitted_names())]
     pub with: Vec<String>,
+    /// The device.
+    #[command(flatten)]
+    pub port: PortArgs,
+    /// The bench.
+    #[command(flatten)]
+    pub limits: LimitArgs,
+}
+
+/// `servoid device follow`.
+#[derive(Clone, Debug, Args)]
+pub struct FollowArgs {
+    /// Table of set-points: t_s, and angle_rad from where the shaft stands or speed_rad_s; each holds until the next
+    #[arg(required_unless_present_any = ["angle", "speed"], conflicts_with_all = ["angle", "speed"])]
+    pub course: Option<PathBuf>,
+    /// One angle, rad from where the shaft stands
+    #[arg(
+        long,
+        value_name = "RAD",
+        allow_negative_numbers = true,
+        conflicts_with = "speed"
+    )]
+    pub angle: Option<f64>,
+    /// One speed, rad/s
+    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true)]
+    pub speed: Option<f64>,
+    /// How long the last set-point holds, s
+    #[arg(long = "for", default_value_t = 2.0, value_name = "S")]
+    pub seconds: f64,
+    /// Folder for the recording; it must not hold a run yet
+    #[arg(long, short, value_name = "FOLDER")]
+    pub out: PathBuf,
     /// The device.
     #[command(flatten)]
     pub port: PortArgs,

@@ -16,8 +16,8 @@ pub use batch::{BatchArgs, BatchVerb, Retry};
 pub use bench::BenchArgs;
 pub use device::{
     CommissionArgs, DeviceArgs, DeviceBenchArgs, DeviceMethod, DeviceVerb, EmulateArgs,
-    EmulationArgs, LimitArgs, OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs, Switch,
-    VerifyArgs,
+    EmulationArgs, FollowArgs, LimitArgs, OnDevice, PortArgs, RecordArgs, RunArgs, StreamArgs,
+    Switch, VerifyArgs,
 };
 pub use export::{ExportArgs, GainsArgs, SideName};
 pub use fleet::{DrawArgs, DrawFormat, FleetArgs, PopulationArgs, ResultsArgs};

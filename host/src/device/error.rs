@@ -92,6 +92,9 @@ fn reason(refusal: &Refusal) -> &'static str {
         Refusal::BadJob => {
             "a length or a limit is zero or beyond what it can do; see `servoid device info`"
         }
+        Refusal::NotTuned => {
+            "it has no servo: tune it first, by `servoid device tune`, and leave it powered"
+        }
         Refusal::BadPlan => {
             "the plan has too many segments for it, or is not the one that it holds; try again, or use a shorter plan"
         }

@@ -42,7 +42,7 @@ impl Expected {
             Kind::Commission | Kind::Tune => {
                 f64::from(SEARCHES) * (f64::from(job.fit.evaluations) + 300.0)
             }
-            Kind::Record | Kind::Play => 0.0,
+            Kind::Record | Kind::Play | Kind::Follow => 0.0,
         };
         let longest_s = driven_s * SLOWER + models * MODEL_S;
         Expected {
@@ -62,6 +62,8 @@ impl Expected {
             Stage::Record => self.job.record.into(),
             Stage::Verify => self.job.verify,
             Stage::Tune if self.job.kind == Kind::Tune => LONGEST_STEP,
+            Stage::Follow if self.job.kind == Kind::Follow => self.job.limits.time,
+            Stage::Follow => 0,
             Stage::Idle | Stage::Fit | Stage::Simulate | Stage::Tune | Stage::Report => 0,
         }
     }
@@ -162,7 +164,7 @@ impl Expected {
         if whole {
             for part in recorded
                 .iter_mut()
-                .filter(|part| !matches!(part.stage, Stage::Probe | Stage::Tune))
+                .filter(|part| !matches!(part.stage, Stage::Probe | Stage::Tune | Stage::Follow))
             {
                 part.rows.resize(self.rows(part.stage) as usize, None);
             }

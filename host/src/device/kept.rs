@@ -22,8 +22,20 @@ pub fn drive(
 ) -> Result<Run, DeviceError> {
     let job = order.job(about, plan)?;
     let expected = Expected::of(&job, plan, about);
+    let course = match &order.course {
+        Some(course) => course.set_points(about, order.counts_per_rev)?,
+        None => Vec::new(),
+    };
     conversation.start(job, plan)?;
-    let run = follow(conversation, about, &expected, stop, recorded, progress)?;
+    let run = follow(
+        conversation,
+        about,
+        &expected,
+        &course,
+        stop,
+        recorded,
+        progress,
+    )?;
     // It has nothing more to report: let it go back to idle.
     let _ = conversation.about();
     Ok(run)

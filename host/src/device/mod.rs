@@ -10,6 +10,7 @@
 //! | `port` | serial port, TCP or Unix socket, by one address |
 //! | `conversation` | request and response, arming and starting |
 //! | `order` | a job in SI and in the device's units |
+//! | `course` | where a servo is to go, and when |
 //! | `expected` | what a run can bring by its job: time, rows, numbers |
 //! | `reached` | a device that can be talked to, real or emulated |
 //! | `run` | one run: the device's messages assembled; progress; stop |
@@ -20,6 +21,7 @@
 //! | `lockstep` | the virtual bench as the plant of an emulated board |
 
 mod conversation;
+mod course;
 mod emulation;
 mod error;
 mod expected;
@@ -33,6 +35,7 @@ mod report;
 mod run;
 
 pub use conversation::{Clock, Conversation};
+pub use course::{Aim, Course};
 pub use emulation::{Emulation, Image};
 pub use error::DeviceError;
 pub use expected::Expected;

@@ -1,6 +1,6 @@
 //! A user's order in SI and in the device's units.
 
-use super::DeviceError;
+use super::{Course, DeviceError};
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::DutyScale;
 use shared::fit::{Grade, Settings};
@@ -46,6 +46,8 @@ pub struct Order {
     pub continuous: Option<(f64, f64)>,
     /// Armature resistance, Ω: lets a board without a current sensor guess the current.
     pub resistance_ohm: Option<f64>,
+    /// Where a servo is to go.
+    pub course: Option<Course>,
 }
 
 /// Allowance for probing, braking and waiting, s.
@@ -135,6 +137,11 @@ impl Order {
         let excite = periods("--excite", self.excite_s, HOUR)?;
         let verify = periods("--verify", self.verify_s, HOUR)?;
         let played: u32 = plan.iter().map(|segment| u32::from(segment.periods)).sum();
+        let followed = periods(
+            "the course of",
+            self.course.as_ref().map_or(0.0, Course::seconds),
+            HOUR,
+        )?;
         let aside = (ASIDE_S / period_s) as u32;
         let per_count = self.counts_per_rev / std::f64::consts::TAU * period_s;
         let (continuous_a, thermal_s) = self.continuous.unzip();
@@ -167,7 +174,7 @@ impl Order {
                     1e3,
                     1e9,
                 )?,
-                time: excite + record + verify + played + aside,
+                time: excite + record + verify + played + followed + aside,
             },
             supply_mv: (self.supply_v * 1e3).round().clamp(1.0, 4e9) as u32,
             counts_per_rev: self.counts_per_rev.round().clamp(0.0, 4e9) as u32,

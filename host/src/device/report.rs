@@ -1,12 +1,13 @@
 //! The report of a device's run.
 
-use super::{Order, Run};
+use super::{Aim, Course, Order, Run};
 use servoid_results::device_run::Recorded;
 use servoid_results::schema::DeviceRun;
 use servoid_results::schema::device;
 use shared::fit::{self, Outcome, Reason, Settings, Stop, Verdict};
 use shared::servo::Response;
-use shared::wire::{About, Fault, Format, Tuned};
+use shared::wire::{About, Fault, Format, Stage, Tuned};
+use std::f64::consts::TAU;
 
 /// Report of a finished run.
 pub fn report(run: &Run, order: &Order) -> DeviceRun {
@@ -77,11 +78,51 @@ pub fn broken(about: &About, order: &Order, recorded: &[Recorded]) -> DeviceRun 
         within: None,
         predicted: None,
         tuned: None,
+        followed: order
+            .course
+            .as_ref()
+            .and_then(|course| followed(course, about, order, recorded)),
         failure: None,
         limited_periods: None,
         missing: recorded.iter().map(Recorded::missing).sum(),
         partial: true,
     }
+}
+
+/// How the last set-point of a course was kept to.
+fn followed(
+    course: &Course,
+    about: &About,
+    order: &Order,
+    recorded: &[Recorded],
+) -> Option<device::Followed> {
+    let (from_s, aim) = course.last()?;
+    let period_s = f64::from(about.period_us) * 1e-6;
+    let rows: Vec<_> = (recorded.iter().find(|part| part.stage == Stage::Follow))
+        .map(|part| part.whole().collect())
+        .unwrap_or_default();
+    let period = |seconds: f64| (seconds / period_s).round() as usize;
+    let end = period(course.seconds());
+    let travel = |from: usize| -> Option<f64> {
+        let rows = rows.get(from..end)?;
+        let counts: i64 = rows.iter().map(|row| i64::from(row.step)).sum();
+        Some(counts as f64 * TAU / order.counts_per_rev)
+    };
+    let (what, set_point, reached) = match aim {
+        Aim::Angle(rad) => (device::FollowedWhat::Angle, rad, travel(0)),
+        Aim::Speed(speed) => {
+            let quarter = (course.seconds() - from_s) / 4.0;
+            let from = end.saturating_sub(period(quarter).max(1));
+            let seconds = (end - from) as f64 * period_s;
+            let mean = travel(from).map(|rad| rad / seconds);
+            (device::FollowedWhat::Speed, speed, mean)
+        }
+    };
+    Some(device::Followed {
+        what,
+        set_point,
+        reached,
+    })
 }
 
 fn finite(x: f32) -> Option<f64> {

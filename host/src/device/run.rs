@@ -3,7 +3,7 @@
 use super::expected::Expected;
 use super::{Conversation, DeviceError};
 use servoid_results::device_run::Recorded;
-use shared::wire::{About, Failure, Report, Rows, Stage, ToDevice, ToHost};
+use shared::wire::{About, Failure, Report, Rows, SetPoint, Stage, ToDevice, ToHost};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -47,11 +47,20 @@ pub fn follow(
     conversation: &mut Conversation,
     about: &About,
     expected: &Expected,
+    course: &[(u32, SetPoint)],
     stop: &AtomicBool,
     recorded: &mut Vec<Recorded>,
     progress: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
 ) -> Result<Run, DeviceError> {
-    let outcome = until_the_end(conversation, about, expected, stop, recorded, progress);
+    let outcome = until_the_end(
+        conversation,
+        about,
+        expected,
+        course,
+        stop,
+        recorded,
+        progress,
+    );
     let outcome = outcome.inspect_err(|_| {
         // Whatever it still does, it does for nobody.
         let _ = conversation.say(&ToDevice::Stop);
@@ -77,6 +86,7 @@ fn until_the_end(
     conversation: &mut Conversation,
     about: &About,
     expected: &Expected,
+    course: &[(u32, SetPoint)],
     stop: &AtomicBool,
     recorded: &mut Vec<Recorded>,
     mut progress: impl FnMut(Progress<'_>) -> Result<(), DeviceError>,
@@ -84,6 +94,8 @@ fn until_the_end(
     let begun = conversation.now();
     let (mut said, mut heard, mut advanced) = (begun, begun, begun);
     let (mut models, mut stages) = (0, Vec::new());
+    // Periods of the course that are over, and how many of its set-points hold or held.
+    let (mut along, mut held) = (None, 0);
     let mut stopped: Option<Instant> = None;
     loop {
         let now = conversation.now();
@@ -96,9 +108,17 @@ fn until_the_end(
             conversation.say(&ToDevice::Stop)?;
             stopped.get_or_insert(now);
         }
-        if now.duration_since(said) >= ALIVE {
-            conversation.say(&ToDevice::Alive)?;
-            said = now;
+        // In the device's time, which an emulated one's is slower than ours. Said again as often as that the host is there: it may be lost.
+        let due = course
+            .iter()
+            .filter(|(from, _)| Some(*from) <= along)
+            .count();
+        if now.duration_since(said) >= ALIVE || due > held {
+            conversation.say(&match course[..due].last() {
+                Some((_, set_point)) => ToDevice::SetPoint(*set_point),
+                None => ToDevice::Alive,
+            })?;
+            (said, held) = (now, due);
         }
         expected.check_time(now.duration_since(begun), now.duration_since(advanced))?;
         let Some(message) = conversation.hear()? else {
@@ -115,6 +135,9 @@ fn until_the_end(
         match message {
             ToHost::About(now) if now.boot != about.boot => return Err(DeviceError::Restarted),
             ToHost::Stage { stage, length, .. } => {
+                if stage == Stage::Follow {
+                    along = along.or(Some(0));
+                }
                 let known = length > 0 && length < u32::MAX && stage != Stage::Probe;
                 // Each once: a device that goes round and round brings nothing new.
                 if !stages.contains(&stage) {
@@ -127,6 +150,9 @@ fn until_the_end(
                 expected.check_rows(&rows)?;
                 if enter(recorded, &rows) {
                     advanced = now;
+                }
+                if rows.stage == Stage::Follow {
+                    along = along.max(Some(rows.first + rows.rows.len() as u32));
                 }
                 progress(Progress::Rows(&rows))?;
             }

@@ -20,11 +20,12 @@ pub struct Folder {
 }
 
 /// Files of a run, with the stage that each comes from.
-pub(super) const RECORDINGS: [(&str, Stage); 4] = [
+pub(super) const RECORDINGS: [(&str, Stage); 5] = [
     ("recording.csv", Stage::Excite),
     ("fitted.csv", Stage::Record),
     ("verify.csv", Stage::Verify),
     ("tune.csv", Stage::Tune),
+    ("follow.csv", Stage::Follow),
 ];
 pub(super) const MOTOR: &str = "motor.toml";
 

@@ -58,6 +58,9 @@ pub struct DeviceRun {
     /// The servo that the motor makes, where that was asked for and its numbers are good enough.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tuned: Option<Tuned>,
+    /// How a servo kept to its last set-point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub followed: Option<Followed>,
     /// Why the run was given up; null if it was not.
     pub failure: Option<Failure>,
     /// Periods in which the current's limit held the drive back; what was driven is recorded.
@@ -132,6 +135,27 @@ pub struct Tuned {
     pub predicted: Answer,
     /// How the motor did; null if its step was given up.
     pub measured: Option<Answer>,
+}
+
+/// The last set-point of a servo, and what it reached: the angle at its end, or the mean speed of its last quarter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Followed {
+    /// What is held.
+    pub what: FollowedWhat,
+    /// The set-point, rad from where the run began, or rad/s.
+    pub set_point: f64,
+    /// What was reached, in the same unit; null if the run broke off before.
+    pub reached: Option<f64>,
+}
+
+/// What a servo holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FollowedWhat {
+    /// An angle.
+    Angle,
+    /// A speed.
+    Speed,
 }
 
 /// How a step was answered.

@@ -18,6 +18,7 @@ pub(super) fn run(session: &Session, args: &DeviceArgs) -> Result<(), Error> {
         DeviceVerb::Info(args) => info(session, args),
         DeviceVerb::Commission(args) => record::commission(session, args, Kind::Commission),
         DeviceVerb::Tune(args) => record::commission(session, args, Kind::Tune),
+        DeviceVerb::Follow(args) => record::follow(session, args),
         DeviceVerb::Record(args) => record::record(session, args),
         DeviceVerb::Stream(args) => record::stream(session, args),
         DeviceVerb::Run(args) => record::play(session, args),

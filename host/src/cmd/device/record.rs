@@ -2,10 +2,12 @@
 
 use super::emulate;
 use crate::cli::{
-    CommissionArgs, DeviceMethod, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs, Switch,
+    CommissionArgs, DeviceMethod, FollowArgs, LimitArgs, PortArgs, RecordArgs, RunArgs, StreamArgs,
+    Switch,
 };
 use crate::device::{
-    Conversation, Kept, Order, Progress, Reached, Run, dead_time_s, drive, keep, segments,
+    Aim, Conversation, Course, Kept, Order, Progress, Reached, Run, dead_time_s, drive, keep,
+    segments,
 };
 use crate::error::Error;
 use crate::session::{Session, print};
@@ -13,7 +15,7 @@ use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::{COLUMNS, Folder, Lines};
 use servoid_results::schema::DeviceRun;
-use servoid_results::schema::device::{Answer, Tuned};
+use servoid_results::schema::device::{Answer, Followed, FollowedWhat, Tuned};
 use shared::fit::{Grade, Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
@@ -67,6 +69,7 @@ pub(super) fn order(
         max_speed: limits.max_speed,
         continuous: limits.continuous_current.zip(limits.thermal_time),
         resistance_ohm: limits.resistance,
+        course: None,
     })
 }
 
@@ -278,6 +281,7 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
             );
         }
     }
+    text += &saved.followed.as_ref().map_or(String::new(), followed);
     text += &format!(
         "{}: {}, motor.toml, device.json\n",
         path.display(),
@@ -292,6 +296,24 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
         );
     }
     text
+}
+
+/// How the last set-point was kept to.
+fn followed(followed: &Followed) -> String {
+    let (unit, when) = match followed.what {
+        FollowedWhat::Angle => ("rad", "at its end"),
+        FollowedWhat::Speed => ("rad/s", "in the mean of its last quarter"),
+    };
+    let Some(reached) = followed.reached else {
+        return format!(
+            "the last set-point, {} {unit}, was not held to its end\n",
+            followed.set_point
+        );
+    };
+    format!(
+        "the last set-point: {} {unit}; {when} {reached:.4} {unit}\n",
+        followed.set_point
+    )
 }
 
 /// The servo, and how its step went.
@@ -377,6 +399,28 @@ pub(super) fn commission(
             ..fit
         },
         ..common
+    };
+    into_folder(session, &mut bench, &order, &[], &folder, &args.out)
+}
+
+/// `servoid device follow`.
+pub(super) fn follow(session: &Session, args: &FollowArgs) -> Result<(), Error> {
+    let numbers = [args.angle, args.speed, Some(args.seconds)];
+    if numbers.iter().flatten().any(|number| !number.is_finite()) || args.seconds <= 0.0 {
+        return Err(Error::Usage(
+            "--angle and --speed must be finite, --for above zero".to_owned(),
+        ));
+    }
+    let course = match (&args.course, args.angle, args.speed) {
+        (Some(path), _, _) => Course::read(path, args.seconds)?,
+        (None, Some(angle), _) => Course::of(Aim::Angle(angle), args.seconds),
+        (None, None, speed) => Course::of(Aim::Speed(speed.unwrap_or(0.0)), args.seconds),
+    };
+    let folder = Folder::new(&args.out)?;
+    let mut bench = open(session, &args.port, &args.limits)?;
+    let order = Order {
+        course: Some(course),
+        ..order(session, &bench.reached, &args.limits, Kind::Follow)?
     };
     into_folder(session, &mut bench, &order, &[], &folder, &args.out)
 }
