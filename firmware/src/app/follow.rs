@@ -3,7 +3,7 @@
 use super::App;
 use super::tune::as_duty;
 use crate::board::Board;
-use crate::guard::Guard;
+use crate::guard::Learned;
 use shared::fit::Arithmetic;
 use shared::servo::{Gains, Servo, Target};
 use shared::wire::{Job, SetPoint};
@@ -17,12 +17,23 @@ const OF_LIMIT: f32 = 0.8;
 /// What is left to the limit of travel, a part of it.
 const MARGIN: u32 = 16;
 
-/// What was tuned: gains, the largest duty that they were tuned for, and what the guards know of the motor.
-#[derive(Clone, Debug)]
+/// What was tuned, if anything was: gains, the largest duty that they were tuned for, and what the guards have learned of the motor.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Kept {
+    pub(super) is_tuned: bool,
     pub(super) gains: Gains,
     pub(super) amplitude: i16,
-    pub(super) guard: Guard,
+    pub(super) learned: Learned,
+}
+
+impl Kept {
+    /// Nothing: all zeros.
+    pub(super) const NOTHING: Self = Kept {
+        is_tuned: false,
+        gains: Gains::NONE,
+        amplitude: 0,
+        learned: Learned::NOTHING,
+    };
 }
 
 /// A servo on its way.
@@ -46,19 +57,17 @@ impl Following {
     };
 
     /// At rest where it is.
-    pub(super) fn new(kept: &Kept, job: &Job) -> Self {
-        let mut own = Following {
-            travel: job.limits.travel,
-            ..Self::NONE
-        };
+    #[inline(never)]
+    pub(super) fn begin(&mut self, kept: &Kept, job: &Job) {
+        *self = Self::NONE;
+        self.travel = job.limits.travel;
         let limit = kept.amplitude.min(job.limits.duty);
-        own.servo
+        self.servo
             .begin(kept.gains, f32::from(limit) * (1.0 / 32_768.0));
         if job.limits.speed > 0 {
-            own.servo
+            self.servo
                 .no_faster_than(OF_LIMIT * f32::from(job.limits.speed));
         }
-        own
     }
 
     /// Takes a set-point.
@@ -92,7 +101,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// The next duty on the way to the set-point; `None` where it has come to rest after the last one.
     #[inline(never)]
     pub(super) fn follow(&mut self, step: i32) -> Option<i16> {
-        let following = &mut self.following;
+        let following = &mut self.memory.following;
         if let Some((since, still)) = &mut following.stops {
             *since += 1;
             *still = if step == 0 { *still + 1 } else { 0 };

@@ -1,6 +1,5 @@
 //! The application's side of the link: identification, arming and starting, retransmission of the recording.
 
-use super::follow::Following;
 use super::recording::Batch;
 use super::tune::Trial;
 use super::{App, NO_REPORT};
@@ -73,7 +72,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             ToDevice::Plan(part) => self.plan(&part),
             ToDevice::SetPoint(set_point) => {
                 if self.phase == Phase::Follow {
-                    self.following.take(set_point);
+                    self.memory.following.take(set_point);
                 }
             }
             ToDevice::Resend { first } => self.resend(first),
@@ -202,8 +201,11 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             return Err(Refusal::BadPlan);
         }
         if job.kind == Kind::Follow {
-            let kept = self.kept.as_ref().ok_or(Refusal::NotTuned)?;
-            self.following = Following::new(kept, &job);
+            let memory = &mut *self.memory;
+            if !memory.kept.is_tuned {
+                return Err(Refusal::NotTuned);
+            }
+            memory.following.begin(&memory.kept, &job);
         }
         self.run = Some(nonce);
         self.at = 0;
@@ -223,11 +225,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             current_ma: B::CURRENT_LIMIT_MA,
             resolution_ma: B::CURRENT_RESOLUTION_MA,
         };
-        let mut guard = Guard::new(&job, rating, self.count);
-        if let (Kind::Follow, Some(kept)) = (job.kind, &self.kept) {
-            guard.learn(&kept.guard);
+        let guard = self.guard.insert(Guard::new(&job, rating, self.count));
+        if job.kind == Kind::Follow {
+            guard.learn(&self.memory.kept.learned);
         }
-        self.guard = Some(guard);
         self.bridge = Bridge::new(job.supply_mv);
         log::started(&job);
         self.job = Some(job);

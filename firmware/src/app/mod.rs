@@ -78,6 +78,9 @@ pub struct Memory<S: Arithmetic> {
     fit: Fit<S>,
     plan: Plan,
     trial: Trial,
+    /// The servo of the last tuning, and one under way.
+    kept: Kept,
+    following: Following,
     inbox: Deframer,
     outbox: Outbox,
 }
@@ -89,6 +92,8 @@ impl<S: Arithmetic> Memory<S> {
             fit: Fit::idle(),
             plan: Plan::new(),
             trial: Trial::NONE,
+            kept: Kept::NOTHING,
+            following: Following::NONE,
             inbox: Deframer::new(),
             outbox: Outbox::new(),
         }
@@ -131,9 +136,6 @@ pub struct App<'m, B, S: Arithmetic, const N: usize> {
     silence: u32,
     repeat: u32,
     report: Report,
-    /// The servo of the last tuning, and one under way.
-    kept: Option<Kept>,
-    following: Following,
     /// The fitted motor is ready to predict.
     predicts: bool,
     failure: Option<Tripped>,
@@ -182,8 +184,6 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             silence: 0,
             repeat: 0,
             report: NO_REPORT,
-            kept: None,
-            following: Following::NONE,
             predicts: false,
             failure: None,
             failed_in: (Phase::Idle, 0),

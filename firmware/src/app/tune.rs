@@ -185,11 +185,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn tuned(&mut self) {
         if let Some(tuned) = &mut self.report.tuned {
             tuned.measured = Some(self.memory.trial.step.response());
-            self.kept = self.guard.as_ref().map(|guard| Kept {
-                gains: tuned.gains,
-                amplitude: self.report.amplitude,
-                guard: guard.clone(),
-            });
+            if let Some(guard) = &self.guard {
+                self.memory.kept = Kept {
+                    is_tuned: true,
+                    gains: tuned.gains,
+                    amplitude: self.report.amplitude,
+                    learned: guard.learned(),
+                };
+            }
         }
         self.done();
     }
@@ -198,7 +201,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn servo_acts(&mut self, duty: i16) {
         let part = f32::from(duty) * (1.0 / 32_768.0);
         match self.phase {
-            Phase::Follow => self.following.acts(part),
+            Phase::Follow => self.memory.following.acts(part),
             _ => self.memory.trial.servo.acts(part),
         }
     }

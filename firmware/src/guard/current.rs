@@ -5,6 +5,7 @@
 //! without any constant of the motor: a shaft that was driven by no more than `D` was never faster than where its back-EMF is `D`, so
 //! that at a fraction of the highest speed seen it is at most that fraction of `D`.
 
+use super::learned::OfCurrent;
 use shared::wire::Limits;
 
 /// Periods over which speed is measured, for coarse encoders.
@@ -93,11 +94,19 @@ impl Current {
         current
     }
 
-    /// Takes over what another run showed of the same winding: what it draws at rest, and how fast which drive makes it.
-    pub fn learn(&mut self, from: &Current) {
+    /// What the drive has shown.
+    pub(super) fn learned(&self) -> OfCurrent {
+        OfCurrent {
+            stall_ma: self.stall_ma,
+            fastest: [self.long.fastest, self.short.fastest],
+            strongest: self.strongest,
+        }
+    }
+
+    /// Takes over what another run showed of the same winding.
+    pub(super) fn learn(&mut self, from: &OfCurrent) {
         self.stall_ma = self.stall_ma.max(from.stall_ma);
-        self.long.fastest = from.long.fastest;
-        self.short.fastest = from.short.fastest;
+        [self.long.fastest, self.short.fastest] = from.fastest;
         self.strongest = from.strongest;
         self.bound();
     }

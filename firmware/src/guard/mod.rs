@@ -4,16 +4,19 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `learned` | what a run has shown of its motor |
 //! | `motion` | whether the shaft follows the drive: stall, runaway, dead line, jump |
 //! | `response` | how a free shaft answers a strong drive |
 //! | `current` | the armature current, measured or bounded; the winding's heat |
 
 mod current;
+mod learned;
 mod motion;
 mod response;
 
 use crate::phase::Fault;
 use current::{Current, LARGEST_MA};
+pub use learned::Learned;
 pub use motion::{LONGEST_WINDOW_MS, SHORTEST_WINDOW_MS};
 use motion::{Motion, Shown};
 use shared::scalar::Real;
@@ -106,8 +109,17 @@ impl Guard {
         }
     }
 
+    /// What it has learned of the motor.
+    pub fn learned(&self) -> Learned {
+        Learned {
+            motion: self.motion.learned(),
+            current: self.current.learned(),
+            step_ma: self.step_ma,
+        }
+    }
+
     /// Takes over what another run showed of the same motor.
-    pub fn learn(&mut self, from: &Guard) {
+    pub fn learn(&mut self, from: &Learned) {
         self.motion.learn(&from.motion);
         self.current.learn(&from.current);
         self.step_ma = from.step_ma;

@@ -7,6 +7,7 @@
 //! lose speed by a quarter of it, has a reversed encoder.
 
 use super::Tripped;
+use super::learned::OfMotion;
 use super::response::{Acceleration, REST_COUNTS, Rest, Stretch};
 use crate::phase::Fault;
 
@@ -130,8 +131,19 @@ impl Motion {
         self.turning = self.turning.min(duty.max(1));
     }
 
+    /// What the probe has shown.
+    pub(super) fn learned(&self) -> OfMotion {
+        OfMotion {
+            window: self.window,
+            strong: self.strong,
+            turning: self.turning,
+            dithers: self.dithers,
+            acceleration: self.acceleration,
+        }
+    }
+
     /// Takes over what the probe of another run showed of the same motor.
-    pub fn learn(&mut self, from: &Motion) {
+    pub(super) fn learn(&mut self, from: &OfMotion) {
         self.window = from.window;
         self.strong = from.strong;
         self.turning = from.turning;

@@ -43,7 +43,7 @@ const MOST_BY_A_COUNT: f32 = 0.1;
 
 impl Gains {
     /// Of no motor: all zeros.
-    pub(super) const NONE: Self = Gains {
+    pub const NONE: Self = Gains {
         position: 0.0,
         speed: 0.0,
         back_emf: 0.0,
