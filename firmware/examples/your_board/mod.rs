@@ -3,6 +3,7 @@
 
 use embassy_rp::bind_interrupts;
 use embassy_rp::gpio::{Input, Level, Output, Pull};
+use embassy_rp::interrupt::{self, InterruptExt, Priority};
 use embassy_rp::peripherals::{PIO0, UART0};
 use embassy_rp::pio::{self, Pio};
 use embassy_rp::pwm::{self, Pwm, PwmOutput};
@@ -65,6 +66,8 @@ pub fn start() -> Generic<Yours> {
     core::mem::forget((pio.common, pio.sm1, pio.sm2, pio.sm3));
     let mut config = uart::Config::default();
     config.baudrate = firmware::board::BAUD;
+    // Below whatever calls the application once a control period.
+    interrupt::UART0_IRQ.set_priority(Priority::P3);
     let (send, receive) = (SEND.take(), RECEIVE.take());
     let uart = BufferedUart::new(p.UART0, p.PIN_0, p.PIN_1, Interrupts, send, receive, config);
     Generic {

@@ -24,6 +24,7 @@ mod usb;
 use embassy_rp::bind_interrupts;
 use embassy_rp::clocks::RoscRng;
 use embassy_rp::gpio::{Input, Level, Output, Pull};
+use embassy_rp::interrupt::{self, InterruptExt, Priority};
 use embassy_rp::pac::{PWM, SIO};
 use embassy_rp::peripherals::{PIO0, UART0, USB};
 use embassy_rp::pio::{self, Pio};
@@ -130,6 +131,9 @@ impl PicoBoard {
         let bridge = HBridge::new(a, b, enable, fault, FULL);
         let usb = UsbSerial::new(Driver::new(p.USB, Interrupts), chip::NAME);
         let link = EitherPort::new(usb, Link::new(uart));
+        // The end of a control period, at the reset priority, is above the link: a burst of bytes must not put it off.
+        interrupt::UART0_IRQ.set_priority(Priority::P2);
+        interrupt::USBCTRL_IRQ.set_priority(Priority::P2);
         // At once one after the other: the carrier's phase in the control period is what passes in between.
         let period = Period::new(core.SYST, CORE_HZ / 1_000_000 * Pico::PERIOD_US);
         let turn = Carrier::start();

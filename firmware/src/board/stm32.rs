@@ -8,6 +8,8 @@ mod reset;
 mod supervision;
 
 use embassy_stm32::gpio::Pull;
+use embassy_stm32::interrupt::Priority;
+use embassy_stm32::interrupt::typelevel::Interrupt;
 use embassy_stm32::peripherals::IWDG;
 use embassy_stm32::timer::GeneralInstance4Channel;
 use embassy_stm32::timer::qei::{self, Qei};
@@ -60,6 +62,8 @@ pub trait Wiring {
     const CURRENT_RESOLUTION_MA: u16 = 1;
     /// The timer that decodes the encoder.
     type EncoderTimer: GeneralInstance4Channel;
+    /// The interrupt of the link's serial port.
+    type LinkInterrupt: Interrupt;
 
     /// Lets the bridge's driver chip follow its inputs, or not.
     fn enable(&mut self, on: bool);
@@ -144,6 +148,8 @@ impl<W: Wiring> Stm32<W> {
         }
         let core = cortex_m::Peripherals::take().expect("a board is put together once");
         let cycles = bridge.timer.get_clock_frequency().0 / 1_000_000 * PERIOD_US;
+        // The end of a control period, at the reset priority, is above the link: a burst of bytes must not put it off.
+        W::LinkInterrupt::set_priority(Priority::P6);
         let period = Period::new(core.SYST, cycles);
         bridge.align();
         Self {

@@ -23,7 +23,7 @@ use embassy_stm32::rcc::{
 use embassy_stm32::time::mhz;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
-use embassy_stm32::{Config, bind_interrupts};
+use embassy_stm32::{Config, bind_interrupts, interrupt};
 use static_cell::ConstStaticCell;
 
 use super::link;
@@ -41,6 +41,7 @@ impl ModuleBoard for BluePill {
     // Some 250 instructions a sample in fixed point.
     const SLICE: u32 = 60;
     type EncoderTimer = TIM3;
+    type LinkInterrupt = interrupt::typelevel::USART2;
     type Noise = Thermometer;
 }
 

@@ -20,12 +20,12 @@
 
 use embassy_stm32::Peri;
 use embassy_stm32::adc::{Adc, SampleTime};
-use embassy_stm32::bind_interrupts;
 use embassy_stm32::gpio::{Input, Level, Output, Pull, Speed};
 use embassy_stm32::peripherals::{ADC1, PA3, PA5, PA6, PC2, TIM4, USART6};
 use embassy_stm32::rcc::HseMode;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
+use embassy_stm32::{bind_interrupts, interrupt};
 use static_cell::ConstStaticCell;
 
 use super::link;
@@ -119,6 +119,7 @@ impl Wiring for Connections {
     const CURRENT_LIMIT_MA: u32 = 50_000;
     const CURRENT_RESOLUTION_MA: u16 = 81;
     type EncoderTimer = TIM4;
+    type LinkInterrupt = interrupt::typelevel::USART6;
 
     fn enable(&mut self, _on: bool) {}
 

@@ -11,10 +11,10 @@
 //! | PA6, PA7 | encoder A and B |
 //! | PA2, PA3 | link, transmit and receive, to a 3.3 V adapter |
 
-use embassy_stm32::bind_interrupts;
 use embassy_stm32::peripherals::{TIM3, USART2};
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
+use embassy_stm32::{bind_interrupts, interrupt};
 use static_cell::ConstStaticCell;
 
 use super::link;
@@ -32,6 +32,7 @@ impl ModuleBoard for BlackPill {
     const NAME: &'static str = "Black Pill (STM32F411)";
     const SLICE: u32 = 600;
     type EncoderTimer = TIM3;
+    type LinkInterrupt = interrupt::typelevel::USART2;
     type Noise = Thermometer;
 }
 

@@ -18,7 +18,7 @@ use embassy_stm32::peripherals::{ADC1, PC0, TIM3, USART2};
 use embassy_stm32::rcc::HseMode;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
-use embassy_stm32::{Peri, bind_interrupts};
+use embassy_stm32::{Peri, bind_interrupts, interrupt};
 use static_cell::ConstStaticCell;
 
 use super::current::CurrentSensor;
@@ -91,6 +91,7 @@ impl Wiring for Connections {
     const CURRENT_LIMIT_MA: u32 = 14_000;
     const CURRENT_RESOLUTION_MA: u16 = 9;
     type EncoderTimer = TIM3;
+    type LinkInterrupt = interrupt::typelevel::USART2;
 
     fn enable(&mut self, on: bool) {
         self.enable.set_level(on.into());

@@ -11,11 +11,11 @@
 //! | PA2, PA3 | – | link, over the ST-LINK's USB |
 //! | PH0 | – | clock, 8 MHz, from the ST-LINK |
 
-use embassy_stm32::bind_interrupts;
 use embassy_stm32::peripherals::{TIM3, USART2};
 use embassy_stm32::rcc::HseMode;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
+use embassy_stm32::{bind_interrupts, interrupt};
 use static_cell::ConstStaticCell;
 
 use super::link;
@@ -33,6 +33,7 @@ impl ModuleBoard for Nucleo {
     const NAME: &'static str = "Nucleo-F446RE";
     const SLICE: u32 = 1000;
     type EncoderTimer = TIM3;
+    type LinkInterrupt = interrupt::typelevel::USART2;
     type Noise = Thermometer;
 }
 

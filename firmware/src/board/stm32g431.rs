@@ -27,7 +27,7 @@ use embassy_stm32::rcc::{Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSourc
 use embassy_stm32::time::mhz;
 use embassy_stm32::timer::qei::Qei;
 use embassy_stm32::usart::{self, BufferedUart};
-use embassy_stm32::{Config, Peri, bind_interrupts};
+use embassy_stm32::{Config, Peri, bind_interrupts, interrupt};
 use static_cell::{ConstStaticCell, StaticCell};
 
 use super::link;
@@ -149,6 +149,7 @@ impl Wiring for Connections {
     const CURRENT_LIMIT_MA: u32 = 20_000;
     const CURRENT_RESOLUTION_MA: u16 = 30;
     type EncoderTimer = TIM4;
+    type LinkInterrupt = interrupt::typelevel::USART2;
 
     fn enable(&mut self, _on: bool) {}
 

@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use embassy_stm32::Peri;
 use embassy_stm32::gpio::{Level, Output, Pin, Speed};
+use embassy_stm32::interrupt::typelevel::Interrupt;
 use embassy_stm32::timer::GeneralInstance4Channel;
 
 use super::Wiring;
@@ -16,6 +17,8 @@ pub trait ModuleBoard {
     const SLICE: u32;
     /// The timer that decodes the encoder.
     type EncoderTimer: GeneralInstance4Channel;
+    /// See [`Wiring::LinkInterrupt`].
+    type LinkInterrupt: Interrupt;
     /// Where its noise comes from.
     type Noise: Noise;
 }
@@ -48,6 +51,7 @@ impl<B: ModuleBoard> Wiring for Module<B> {
     const NAME: &'static str = B::NAME;
     const SLICE: u32 = B::SLICE;
     type EncoderTimer = B::EncoderTimer;
+    type LinkInterrupt = B::LinkInterrupt;
 
     fn enable(&mut self, on: bool) {
         self.enable.set_level(on.into());
