@@ -200,9 +200,15 @@ fn run(script: Script) -> (Result<Run, DeviceError>, usize, Option<ToDevice>) {
     let expected = Expected::of(&job(), &[], &about);
     let mut recorded = Vec::new();
     let never = AtomicBool::new(false);
-    let run = follow(&mut host, &about, &expected, &never, &mut recorded, |_| {
-        Ok(())
-    });
+    let run = follow(
+        &mut host,
+        &about,
+        &expected,
+        &[],
+        &never,
+        &mut recorded,
+        |_| Ok(()),
+    );
     let arrived = recorded
         .iter()
         .map(|part| part.rows.iter().flatten().count());

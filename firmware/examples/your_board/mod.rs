@@ -13,6 +13,7 @@ use firmware::board::generic::{AfterDelay, CallersClock, Generic, HBridge, Parts
 use firmware::board::link::{Link, RECEIVE_BUFFER, SEND_BUFFER};
 use firmware::board::modulation::HalfBridges;
 use firmware::board::pio_encoder::Encoder;
+use firmware::board::sensors::NoSensors;
 use static_cell::ConstStaticCell;
 
 /// Compare value of an output that is always high: 20 kHz at 125 MHz.
@@ -42,6 +43,7 @@ impl Parts for Yours {
     type Position = Encoder;
     type Turn = AfterDelay<Delay>;
     type Tick = CallersClock;
+    type Sensors = NoSensors;
 }
 
 /// Puts it together, with the bridge open. Once: a second call finds the chip's parts taken.
@@ -80,6 +82,7 @@ pub fn start() -> Generic<Yours> {
             ns: 50_000,
         },
         tick: CallersClock::default(),
+        sensors: NoSensors,
         entropy: Default::default(),
         reset: Default::default(),
     }

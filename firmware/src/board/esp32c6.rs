@@ -37,6 +37,7 @@ use super::entropy::Entropy;
 use super::generic::{Generic, HBridge, Parts, Turn};
 use super::modulation::HalfBridges;
 use super::port::EitherPort;
+use super::sensors::NoSensors;
 
 /// Fixed point: the core has no floating-point unit.
 pub type Number = shared::scalar::Fixed;
@@ -72,6 +73,7 @@ impl Parts for DevKit {
     type Position = Encoder;
     type Turn = Carrier;
     type Tick = Clock;
+    type Sensors = NoSensors;
 }
 
 impl Esp32c6 {
@@ -114,6 +116,7 @@ impl Esp32c6 {
             position: Encoder::new(p.PCNT, &lines),
             turn: Carrier,
             tick: Clock::begin(TimerGroup::new(p.TIMG0).wdt, &mut Carrier),
+            sensors: NoSensors,
             entropy,
             reset,
         }

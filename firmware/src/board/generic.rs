@@ -22,6 +22,7 @@ use super::entropy::Entropy;
 pub use super::h_bridge::HBridge;
 use super::modulation::Modulation;
 use super::port::Port;
+use super::sensors::Sensors;
 use crate::phase::Fault;
 use shared::wire::Reset;
 
@@ -123,6 +124,8 @@ pub trait Parts {
     type Turn: Turn;
     /// The control period.
     type Tick: Tick;
+    /// What it measures beside: [`NoSensors`](super::sensors::NoSensors), or the board's own.
+    type Sensors: Sensors;
 }
 
 /// The bridge of a board's parts.
@@ -146,6 +149,8 @@ pub struct Generic<P: Parts> {
     pub turn: P::Turn,
     /// The control period.
     pub tick: P::Tick,
+    /// What it measures beside.
+    pub sensors: P::Sensors,
     /// Noise of the board's.
     pub entropy: Entropy,
     /// What made it start.
@@ -156,6 +161,9 @@ impl<P: Parts> Board for Generic<P> {
     const NAME: &'static str = P::NAME;
     const PERIOD_US: u32 = P::PERIOD_US;
     const SLICE: u32 = P::SLICE;
+    const SENSES_CURRENT: bool = P::Sensors::CURRENT;
+    const CURRENT_LIMIT_MA: u32 = P::Sensors::CURRENT_LIMIT_MA;
+    const CURRENT_RESOLUTION_MA: u16 = P::Sensors::CURRENT_RESOLUTION_MA;
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
@@ -192,7 +200,18 @@ impl<P: Parts> Board for Generic<P> {
         if self.bridge.is_closed() && self.position.failed() {
             return Err(Fault::Encoder);
         }
+        if self.bridge.is_closed() && self.sensors.is_hot() {
+            return Err(Fault::BridgeHot);
+        }
         Ok(())
+    }
+
+    fn current_ma(&mut self) -> i32 {
+        self.sensors.current_ma()
+    }
+
+    fn supply_mv(&mut self) -> Option<u16> {
+        self.sensors.supply_mv()
     }
 
     fn encoder_latency_us(&self) -> u32 {
@@ -304,6 +323,29 @@ mod tests {
         type Position = Counter;
         type Turn = AfterDelay<CheckedDelay>;
         type Tick = Periods;
+        type Sensors = Shunt;
+    }
+
+    /// A shunt, a divider and a thermometer.
+    struct Shunt {
+        hot: bool,
+    }
+
+    impl Sensors for Shunt {
+        const CURRENT: bool = true;
+        const CURRENT_LIMIT_MA: u32 = 3_000;
+
+        fn current_ma(&mut self) -> i32 {
+            -1_200
+        }
+
+        fn supply_mv(&mut self) -> Option<u16> {
+            Some(11_900)
+        }
+
+        fn is_hot(&mut self) -> bool {
+            self.hot
+        }
     }
 
     /// A board whose mocked parts expect exactly these calls, after the bridge was opened once.
@@ -326,6 +368,7 @@ mod tests {
                 ns: 30_000,
             },
             tick: Periods,
+            sensors: Shunt { hot: false },
             entropy: Entropy::default(),
             reset: Reset::Unknown,
         }
@@ -395,6 +438,34 @@ mod tests {
         assert_eq!(board.tick(), Ok(()));
         board.drive(0);
         assert_eq!(board.tick(), Err(Fault::Bridge));
+        ended(board);
+    }
+
+    #[test]
+    fn what_its_sensors_measure_is_the_board_s_and_heat_is_a_fault_while_it_drives() {
+        let duty = Duty::set_duty_cycle;
+        let mut board = board(
+            &[duty(500)],
+            &[duty(500)],
+            &[Level::set(State::High)],
+            &[Level::get(State::High)],
+        );
+        board
+            .turn
+            .delay
+            .update_expectations(&[Wait::delay_ns(30_000)]);
+        const {
+            assert!(Generic::<Bench>::SENSES_CURRENT && Generic::<Bench>::CURRENT_LIMIT_MA == 3_000)
+        };
+        assert_eq!(
+            (board.current_ma(), board.supply_mv()),
+            (-1_200, Some(11_900))
+        );
+        board.sensors.hot = true;
+        assert_eq!(board.tick(), Ok(()));
+        board.drive(0);
+        board.count();
+        assert_eq!(board.tick(), Err(Fault::BridgeHot));
         ended(board);
     }
 

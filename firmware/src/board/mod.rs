@@ -26,6 +26,7 @@ pub mod pio_encoder;
 pub mod port;
 #[cfg(all(target_os = "none", feature = "emulated"))]
 pub mod qemu;
+pub mod sensors;
 pub mod shunts;
 #[cfg(all(target_os = "none", feature = "stm32"))]
 mod stm32;

@@ -46,6 +46,7 @@ use super::modulation::HalfBridges;
 use super::period::Period;
 use super::pio_encoder::Encoder;
 use super::port::EitherPort;
+use super::sensors::NoSensors;
 
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
 const FULL: u16 = (CORE_HZ / (1000 * CARRIERS) / 2) as u16;
@@ -85,6 +86,7 @@ impl Parts for Pico {
     type Position = Encoder;
     type Turn = Carrier;
     type Tick = Supervised;
+    type Sensors = NoSensors;
 }
 
 impl PicoBoard {
@@ -143,6 +145,7 @@ impl PicoBoard {
             position: encoder,
             turn,
             tick: Supervised::begin(period, p.WATCHDOG),
+            sensors: NoSensors,
             entropy,
             reset,
         }

@@ -14,7 +14,16 @@ pub struct ColumnsError {
     pub why: String,
 }
 
-/// Times, and the columns of a table that have these names; nothing for one that is not there.
+/// Columns of a table, all of one length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Columns<const N: usize> {
+    /// Times, which increase, s.
+    pub time_s: Vec<f64>,
+    /// Those that were asked for; nothing for one that is not there.
+    pub named: [Option<Vec<f64>>; N],
+}
+
+/// The columns of a table that have these names, and its times.
 ///
 /// # Errors
 /// A file that cannot be read, no column of times, a cell that is no number, times that do not increase; with file and line.
@@ -22,7 +31,7 @@ pub fn columns<const N: usize>(
     path: &Path,
     names: [&str; N],
     usual: &str,
-) -> Result<(Vec<f64>, [Option<Vec<f64>>; N]), ColumnsError> {
+) -> Result<Columns<N>, ColumnsError> {
     let wrong = |line: Option<u64>, why: String| ColumnsError {
         path: path.to_path_buf(),
         line,
@@ -44,8 +53,10 @@ pub fn columns<const N: usize>(
     };
     let time = place("t_s").ok_or_else(|| wrong(None, format!("no column `t_s`; {usual}")))?;
     let places = names.map(place);
-    let mut times: Vec<f64> = Vec::new();
-    let mut read = places.map(|place| place.map(|_| Vec::new()));
+    let mut read = Columns {
+        time_s: Vec::new(),
+        named: places.map(|place| place.map(|_| Vec::new())),
+    };
     for record in reader.records() {
         let record = record
             .map_err(|error| wrong(error.position().map(csv::Position::line), error.to_string()))?;
@@ -56,15 +67,15 @@ pub fn columns<const N: usize>(
             number.ok_or_else(|| wrong(line, format!("`{cell}` is no number")))
         };
         let at = number(time)?;
-        if times.last().is_some_and(|last| *last >= at) {
+        if read.time_s.last().is_some_and(|last| *last >= at) {
             return Err(wrong(line, format!("t_s {at} does not increase")));
         }
-        times.push(at);
-        for (column, place) in read.iter_mut().zip(places) {
+        read.time_s.push(at);
+        for (column, place) in read.named.iter_mut().zip(places) {
             if let (Some(column), Some(place)) = (column, place) {
                 column.push(number(place)?);
             }
         }
     }
-    Ok((times, read))
+    Ok(read)
 }

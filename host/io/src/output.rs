@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::columns::{ColumnsError, columns};
+use crate::columns::{Columns, ColumnsError, columns};
 use crate::recording::Recording;
 
 /// A file that could not be written; what stood there before still does.
@@ -261,7 +261,10 @@ impl CommandSequence {
     pub fn read(path: &Path) -> Result<Self, ColumnsError> {
         const USUAL: &str =
             "a plan has t_s,voltage_v and may have enabled, see servoid simulate --plan";
-        let (time_s, [voltage_v, enabled]) = columns(path, ["voltage_v", "enabled"], USUAL)?;
+        let Columns {
+            time_s,
+            named: [voltage_v, enabled],
+        } = columns(path, ["voltage_v", "enabled"], USUAL)?;
         let Some(voltage_v) = voltage_v else {
             return Err(ColumnsError {
                 path: path.to_path_buf(),

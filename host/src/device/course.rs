@@ -1,7 +1,7 @@
 //! Where a servo is to go, and when.
 
 use super::DeviceError;
-use servoid_io::columns::{ColumnsError, columns};
+use servoid_io::columns::{Columns, ColumnsError, columns};
 use shared::wire::{About, SetPoint};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -45,7 +45,10 @@ impl Course {
             line: None,
             why,
         };
-        let (times, [angle, speed]) = columns(path, ["angle_rad", "speed_rad_s"], USUAL)?;
+        let Columns {
+            time_s: times,
+            named: [angle, speed],
+        } = columns(path, ["angle_rad", "speed_rad_s"], USUAL)?;
         let aims: Vec<Aim> = match (angle, speed) {
             (Some(angles), None) => angles.into_iter().map(Aim::Angle).collect(),
             (None, Some(speeds)) => speeds.into_iter().map(Aim::Speed).collect(),
