@@ -4,6 +4,7 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
+#[path = "../template/src/your_board.rs"]
 mod your_board;
 
 #[cfg(target_os = "none")]

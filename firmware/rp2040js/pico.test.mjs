@@ -11,8 +11,8 @@ import { after, test } from "node:test";
 import { promisify } from "node:util";
 import { Motor, TEN_WATTS } from "./motor.mjs";
 
-const { PICO, PICO2, PICO2_BENCH, SERVOID } = process.env;
-assert.ok(PICO && PICO2 && PICO2_BENCH && SERVOID, "PICO, PICO2, PICO2_BENCH and SERVOID name images and programs: run scripts/pico test");
+const { PICO, PICO2, PICO2_BENCH, YOURS, SERVOID } = process.env;
+assert.ok(PICO && PICO2 && PICO2_BENCH && YOURS && SERVOID, "PICO, PICO2, PICO2_BENCH, YOURS and SERVOID name images and programs: run scripts/pico test");
 
 // Each with the bench that runs its image, and the ports that a host may be at. Both benches take the same flags.
 const BOARDS = [
@@ -54,6 +54,14 @@ const servoid = (flags) =>
     ({ stdout }) => ({ code: 0, text: stdout }),
     ({ code, stdout, stderr }) => ({ code, text: stdout + stderr }),
   );
+
+test("a board out of the template boots, says who it is, and records a motor", async () => {
+  const board = { ...BOARDS[0], name: "yours", image: YOURS };
+  const { run, out } = await commission(board, "recorded", [], ["--seconds", "0.5"], "record");
+  assert.equal(run.code, 0, run.text);
+  const { board: name } = JSON.parse(readFileSync(join(out, "device.json"), "utf8"));
+  assert.equal(name, "your board");
+});
 
 for (const board of BOARDS) {
   test(`${board.name}: the watchdog opens the bridge of a program that does not come back, and the program knows it`, async () => {
