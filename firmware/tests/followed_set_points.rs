@@ -2,43 +2,15 @@
 
 mod drawing;
 
-use drawing::{Drawn, commissioning, draw};
+use drawing::{Drawn, draw, to_its_end, tuning};
 use firmware::app::{Memory, Recording};
 use firmware::phase::{Fault, Phase};
 use firmware::trials::host::Host;
-use shared::fit::Settings;
 use shared::servo::Gains;
 use shared::trace::OPEN;
 use shared::wire::*;
 
 type Device<'b> = Host<'b, f32, 2000, true>;
-
-fn tuning(drawn: &Drawn, seed: u64) -> Job {
-    let common = commissioning(&drawn.motor, seed, 4_000);
-    Job {
-        kind: Kind::Tune,
-        fit: Settings {
-            supply: false,
-            ..common.fit
-        },
-        ..common
-    }
-}
-
-/// Runs periods until the run has ended.
-fn to_its_end(host: &mut Device<'_>) -> Result<Report, Box<Failure>> {
-    loop {
-        let mut outcome = None;
-        host.period(|message| match message {
-            ToHost::Report(report) => outcome = Some(Ok(report)),
-            ToHost::Failed(failure) => outcome = Some(Err(Box::new(failure))),
-            _ => {}
-        });
-        if let Some(outcome) = outcome {
-            return outcome;
-        }
-    }
-}
 
 /// Tunes the motor and begins to follow within limits; gives the gains.
 fn followed<T>(
@@ -50,7 +22,7 @@ fn followed<T>(
     let bench = drawn.bench();
     let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
     let mut host = Device::new(&bench, &mut memory, &mut recording);
-    let job = tuning(&drawn, seed);
+    let job = tuning(&drawn.motor, seed);
     let follow = |limits: Limits| Job {
         kind: Kind::Follow,
         limits,

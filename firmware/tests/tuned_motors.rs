@@ -2,22 +2,8 @@
 
 mod drawing;
 
-use drawing::{Drawn, commissioning, draw, ran};
-use shared::fit::Settings;
+use drawing::{draw, ran, tuning};
 use shared::wire::*;
-
-fn tune(drawn: &Drawn, seed: u64) -> Result<Report, Box<Failure>> {
-    let common = commissioning(&drawn.motor, seed, 4_000);
-    let job = Job {
-        kind: Kind::Tune,
-        fit: Settings {
-            supply: false,
-            ..common.fit
-        },
-        ..common
-    };
-    ran::<true>(&drawn.bench(), job)
-}
 
 #[test]
 fn a_step_is_answered_as_it_was_predicted() {
@@ -25,7 +11,7 @@ fn a_step_is_answered_as_it_was_predicted() {
     let (mut tuned, mut alike) = (0u64, 0u64);
     for seed in 0..motors {
         let drawn = draw(seed);
-        let report = match tune(&drawn, seed) {
+        let report = match ran::<true>(&drawn.bench(), tuning(&drawn.motor, seed)) {
             Ok(report) => report,
             Err(failure) => {
                 println!("seed {seed}: {failure:?} {drawn:?}");

@@ -136,13 +136,25 @@ impl Drawn {
     }
 }
 
-/// Runs a job on a bench to its end.
-pub fn ran<const SENSES: bool>(bench: &RefCell<Bench>, job: Job) -> Result<Report, Box<Failure>> {
-    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
-    let mut host = Host::<f32, 2000, SENSES>::new(bench, &mut memory, &mut recording);
-    assert!(host.start(job));
-    let mut outcome = None;
+/// A motor's tuning, as a board orders it that measures its supply.
+pub fn tuning(motor: &Motor, seed: u64) -> Job {
+    let common = commissioning(motor, seed, 4_000);
+    Job {
+        kind: Kind::Tune,
+        fit: Settings {
+            supply: false,
+            ..common.fit
+        },
+        ..common
+    }
+}
+
+/// Runs periods until the run has ended.
+pub fn to_its_end<const SENSES: bool>(
+    host: &mut Host<'_, f32, 2000, SENSES>,
+) -> Result<Report, Box<Failure>> {
     loop {
+        let mut outcome = None;
         host.period(|message| match message {
             ToHost::Report(report) => outcome = Some(Ok(report)),
             ToHost::Failed(failure) => outcome = Some(Err(Box::new(failure))),
@@ -152,4 +164,12 @@ pub fn ran<const SENSES: bool>(bench: &RefCell<Bench>, job: Job) -> Result<Repor
             return outcome;
         }
     }
+}
+
+/// Runs a job on a bench to its end.
+pub fn ran<const SENSES: bool>(bench: &RefCell<Bench>, job: Job) -> Result<Report, Box<Failure>> {
+    let (mut memory, mut recording) = (Memory::<f32>::new(), Recording::<2000>::new());
+    let mut host = Host::<f32, 2000, SENSES>::new(bench, &mut memory, &mut recording);
+    assert!(host.start(job));
+    to_its_end(&mut host)
 }
