@@ -43,4 +43,18 @@ pub struct Stronger {
     pub gain_off: Option<f64>,
     /// Error of the device's time constant, as a part of this one.
     pub a1_off: Option<f64>,
+    /// The bridge's dead time, where the device fits it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dead_time: Option<DeadTime>,
+}
+
+/// Dead time of a bridge, by what it takes of the supply.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DeadTime {
+    /// By the device's fit, s.
+    pub device_s: Option<f64>,
+    /// By least squares in double precision, s.
+    pub host_s: Option<f64>,
+    /// By the board's own figure, s; null if it has none.
+    pub told_s: Option<f64>,
 }

@@ -6,10 +6,11 @@
 
 use super::super::progress::Watched;
 use crate::cli::VerifyArgs;
-use crate::device::{Replayed, replay};
+use crate::device::{Replayed, dead_time_s, replay};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
+use servoid_engine::simulation::Candidate;
 use servoid_identify::diagnose::{self, Budget};
 use servoid_identify::fit::Options;
 use servoid_identify::{Datasets, diagnose_datasets, identify_data};
@@ -17,7 +18,7 @@ use servoid_io::input::{MotorFile, read_recording};
 use servoid_results::device_run::{Folder, FolderError};
 use servoid_results::report::diagnosis::DiagnosisReport;
 use servoid_results::schema::device::Outcome;
-use servoid_results::schema::verification::{self, Stronger};
+use servoid_results::schema::verification::{self, DeadTime, Stronger};
 use servoid_results::schema::{DeviceRun, Diagnosis, Verification};
 use shared::effects::Kind;
 use shared::wire::Stage;
@@ -160,7 +161,24 @@ fn stronger(
         a1_s: finite(response.a1),
         gain_off: off("gain", response.gain),
         a1_off: off("a1", response.a1),
+        dead_time: (saved.fit.carriers > 0).then(|| dead_time(saved, outcome, &fit.candidate)),
     })
+}
+
+/// The bridge's dead time by both fits, of which the host's sees it as a voltage that brushes drop, and by the board.
+fn dead_time(saved: &DeviceRun, outcome: &Outcome, found: &Candidate) -> DeadTime {
+    let whole_s = dead_time_s(&saved.fit, f64::from(saved.period_us) * 1e-6);
+    let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
+    let brushes = found
+        .effects
+        .iter()
+        .find(|(kind, _)| *kind == Kind::BrushDrop);
+    let dropped = brushes.and_then(|(_, values)| values.first().copied());
+    DeadTime {
+        device_s: outcome.value("dead_time").and_then(finite),
+        host_s: dropped.and_then(|volts| finite(volts / saved.supply_v * whole_s)),
+        told_s: Some(told * whole_s).filter(|told| *told > 0.0),
+    }
 }
 
 fn finite(x: f64) -> Option<f64> {
@@ -169,14 +187,27 @@ fn finite(x: f64) -> Option<f64> {
 
 fn search(outcome: &Outcome, stronger: &Stronger) -> String {
     let number = |x: Option<f64>| x.unwrap_or(f64::NAN);
-    format!(
+    let mut text = format!(
         "search: least squares in double precision leaves {:.4} counts RMS, the device {:.4}; its gain is off by {:+.3} %, its \
          time constant by {:+.3} %\n",
         number(stronger.rms_counts),
         outcome.rms_counts,
         number(stronger.gain_off) * 100.0,
         number(stronger.a1_off) * 100.0
-    )
+    );
+    if let Some(dead_time) = &stronger.dead_time {
+        let ns = |x: Option<f64>| format!("{:.0} ns", number(x) * 1e9);
+        let told = match dead_time.told_s {
+            Some(_) => format!("the timer was told {}", ns(dead_time.told_s)),
+            None => "the board does not say what its bridge has".to_owned(),
+        };
+        text += &format!(
+            "dead time: {} by the device, {} by least squares; {told}\n",
+            ns(dead_time.device_s),
+            ns(dead_time.host_s)
+        );
+    }
+    text
 }
 
 /// The diagnosis, rendered.
