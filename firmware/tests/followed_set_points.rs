@@ -5,7 +5,7 @@ mod drawing;
 use drawing::{Drawn, draw, to_its_end, tuning};
 use firmware::app::{Memory, Recording};
 use firmware::phase::{Fault, Phase};
-use firmware::trials::bench::Bench;
+use firmware::trials::Mischief;
 use firmware::trials::host::Host;
 use shared::servo::Gains;
 use shared::trace::OPEN;
@@ -155,57 +155,42 @@ fn limits_hold_and_a_silent_host_opens_the_bridge() {
 
 #[test]
 fn whatever_goes_wrong_while_it_follows_opens_the_bridge_and_is_named() {
-    type Mischief = (&'static str, fn(&mut Bench), &'static [Fault]);
-    // At speed, an encoder that turns round jumps.
-    let all: [Mischief; 7] = [
+    let all: [(Mischief, &[Fault]); 7] = [
+        (Mischief::ShaftLocked, &[Fault::Stall, Fault::Overcurrent]),
+        // At speed, an encoder that turns round jumps.
         (
-            "a locked shaft",
-            |bench| bench.locked = true,
-            &[Fault::Stall, Fault::Overcurrent],
-        ),
-        (
-            "a reversed encoder",
-            |bench| bench.encoder = -1,
+            Mischief::EncoderReversed,
             &[Fault::Runaway, Fault::EncoderJump],
         ),
-        (
-            "an encoder that stands still",
-            |bench| bench.encoder = 0,
-            &[Fault::Stall],
-        ),
-        (
-            "a dead line",
-            |bench| bench.line_dead = true,
-            &[Fault::EncoderLine, Fault::Stall],
-        ),
-        ("a jump", |bench| bench.jump(100_000), &[Fault::EncoderJump]),
-        (
-            "a supply that breaks down",
-            |bench| bench.supply_mv = Some(500),
-            &[Fault::Undervoltage],
-        ),
-        (
-            "a fault of the bridge",
-            |bench| bench.fails = Some(Fault::Bridge),
-            &[Fault::Bridge],
-        ),
+        (Mischief::EncoderStuck, &[Fault::Stall]),
+        (Mischief::EncoderLine, &[Fault::EncoderLine, Fault::Stall]),
+        (Mischief::EncoderJump, &[Fault::EncoderJump]),
+        (Mischief::SupplySag, &[Fault::Undervoltage]),
+        (Mischief::BridgeFault, &[Fault::Bridge]),
     ];
     for seed in [3, 9, 20] {
-        for (name, mischief, faults) in all {
+        for (mischief, faults) in all {
             let told = followed(seed, usual, |host, gains, _| {
                 let speed = 0.3 / gains.back_emf * 65_536.0;
                 host.send(&ToDevice::SetPoint(SetPoint::Speed(speed as i32)));
                 for _ in 0..1_000 {
                     host.period(|_| {});
                 }
-                mischief(&mut host.bench.borrow_mut());
-                let failure = to_its_end(host).expect_err(name);
-                assert_eq!(host.bench.borrow().driven, None, "seed {seed}, {name}");
+                mischief.on(&mut host.bench.borrow_mut());
+                let failure = to_its_end(host).expect_err("it goes wrong");
+                assert_eq!(
+                    host.bench.borrow().driven,
+                    None,
+                    "seed {seed}, {mischief:?}"
+                );
                 failure.fault
             });
-            println!("seed {seed}, {name}: {told:?}");
+            println!("seed {seed}, {mischief:?}: {told:?}");
             let told = told.unwrap_or_else(|| panic!("seed {seed} was not tuned"));
-            assert!(faults.contains(&told), "seed {seed}, {name}: {told:?}");
+            assert!(
+                faults.contains(&told),
+                "seed {seed}, {mischief:?}: {told:?}"
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The fit, in the caller's memory.
 
 use crate::recording::ServoidRecording;
-use crate::status::ServoidStatus;
+use crate::status::{ServoidStatus, told};
 use shared::fit::{Fit, Method, Outcome, Settings, Stop, Unknown};
 
 /// The number format of the models: fixed point on cores without a floating-point unit.
@@ -131,7 +131,7 @@ pub struct ServoidFit {
 // The first is a zero at the front: an empty memory is all zeros.
 #[derive(Clone, Copy)]
 #[repr(u8)]
-pub(crate) enum Found {
+enum Found {
     /// It is not over.
     NotYet,
     /// It is over, and there is no motor.
@@ -142,7 +142,7 @@ pub(crate) enum Found {
 /// What the memory holds, once a fit has begun.
 pub(crate) struct Memory {
     begun: u32,
-    pub(crate) found: Found,
+    found: Found,
     pub(crate) predicts: bool,
     pub(crate) fit: Fit<Number>,
 }
@@ -155,6 +155,18 @@ impl Memory {
         predicts: false,
         fit: Fit::idle(),
     };
+
+    /// What the fit has found.
+    ///
+    /// # Errors
+    /// It is not over, or there is no motor.
+    pub(crate) fn found(&self) -> Result<&ServoidOutcome, ServoidStatus> {
+        match &self.found {
+            Found::NotYet => Err(ServoidStatus::TooEarly),
+            Found::NoModel => Err(ServoidStatus::NoModel),
+            Found::Motor(outcome) => Ok(outcome),
+        }
+    }
 }
 
 /// Marks memory in which a fit has begun.
@@ -242,28 +254,25 @@ pub unsafe extern "C" fn servoid_fit_work(
     samples: u32,
 ) -> ServoidStatus {
     // SAFETY: the caller answers for both, and for the arrays.
-    let (memory, recording) = unsafe { (begun(fit), recording.as_ref()) };
-    let memory = match memory {
-        Ok(memory) => memory,
-        Err(status) => return status,
+    let (memory, trace) = unsafe {
+        let recording = recording.as_ref();
+        (
+            begun(fit),
+            recording.and_then(|recording| recording.trace()),
+        )
     };
-    // SAFETY: as above.
-    let Some(trace) = recording.and_then(|recording| unsafe { recording.trace() }) else {
-        return ServoidStatus::Null;
-    };
-    if let Found::NotYet = memory.found {
-        let Some(outcome) = memory.fit.work(&trace, samples) else {
-            return ServoidStatus::Running;
-        };
-        memory.found = match outcome.stop {
-            Stop::Converged => Found::Motor(ServoidOutcome::of(&memory.fit, &outcome)),
-            Stop::NoModel => Found::NoModel,
-        };
-    }
-    match memory.found {
-        Found::Motor(_) => ServoidStatus::Done,
-        _ => ServoidStatus::NoModel,
-    }
+    told(memory.and_then(|memory| {
+        let trace = trace.ok_or(ServoidStatus::Null)?;
+        if let Found::NotYet = memory.found {
+            let outcome = memory.fit.work(&trace, samples);
+            let outcome = outcome.ok_or(ServoidStatus::Running)?;
+            memory.found = match outcome.stop {
+                Stop::Converged => Found::Motor(ServoidOutcome::of(&memory.fit, &outcome)),
+                Stop::NoModel => Found::NoModel,
+            };
+        }
+        memory.found().map(|_| ())
+    }))
 }
 
 /// What a fit found that is over.
@@ -276,15 +285,10 @@ pub unsafe extern "C" fn servoid_fit_outcome(
     outcome: *mut ServoidOutcome,
 ) -> ServoidStatus {
     // SAFETY: the caller answers for both.
-    let (found, to) = unsafe { (begun(fit).map(|memory| memory.found), outcome.as_mut()) };
-    match (found, to) {
-        (Err(status), _) => status,
-        (_, None) => ServoidStatus::Null,
-        (Ok(Found::NotYet), _) => ServoidStatus::TooEarly,
-        (Ok(Found::NoModel), _) => ServoidStatus::NoModel,
-        (Ok(Found::Motor(found)), Some(to)) => {
-            *to = found;
-            ServoidStatus::Done
-        }
-    }
+    let (memory, to) = unsafe { (begun(fit), outcome.as_mut()) };
+    told(memory.and_then(|memory| {
+        let to = to.ok_or(ServoidStatus::Null)?;
+        *to = *memory.found()?;
+        Ok(())
+    }))
 }

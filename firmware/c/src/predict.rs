@@ -1,7 +1,7 @@
 //! What a fitted motor predicts of a recording that it has not seen, and what it is good for.
 
-use crate::fit::{Found, ServoidFit, begun};
-use crate::status::ServoidStatus;
+use crate::fit::{Memory, ServoidFit, begun};
+use crate::status::{ServoidStatus, told};
 use shared::fit::{Grade, Reason};
 
 /// What a motor is good for, best last.
@@ -50,6 +50,19 @@ pub struct ServoidVerdict {
     pub mean_square: f32,
 }
 
+/// The memory, if a prediction has begun in it.
+///
+/// # Safety
+/// As of [`begun`].
+unsafe fn predicting<'a>(fit: *mut ServoidFit) -> Result<&'a mut Memory, ServoidStatus> {
+    // SAFETY: the caller answers for it.
+    let memory = unsafe { begun(fit) }?;
+    memory
+        .predicts
+        .then_some(memory)
+        .ok_or(ServoidStatus::TooEarly)
+}
+
 /// Gets the fitted motor ready to predict about so many periods from standstill, none of the `fitted` ones, judged over windows of so many
 /// periods: as many as 50 ms have.
 ///
@@ -63,18 +76,12 @@ pub unsafe extern "C" fn servoid_predict_begin(
     window: u32,
 ) -> ServoidStatus {
     // SAFETY: the caller answers for it.
-    let memory = match unsafe { begun(fit) } {
-        Ok(memory) => memory,
-        Err(status) => return status,
-    };
-    match memory.found {
-        Found::NotYet => ServoidStatus::TooEarly,
-        Found::Motor(_) if memory.fit.predict(fitted as usize, periods, window) => {
-            memory.predicts = true;
-            ServoidStatus::Done
-        }
-        _ => ServoidStatus::NoModel,
-    }
+    let memory = unsafe { begun(fit) };
+    told(memory.and_then(|memory| {
+        memory.found()?;
+        memory.predicts = memory.fit.predict(fitted as usize, periods, window);
+        memory.predicts.then_some(()).ok_or(ServoidStatus::NoModel)
+    }))
 }
 
 /// One period of what the motor predicts: the duty acted, and the reading is so many counts further. It takes no time: `servoid_predict_catch_up`
@@ -89,12 +96,8 @@ pub unsafe extern "C" fn servoid_predict_observe(
     step: i16,
 ) -> ServoidStatus {
     // SAFETY: the caller answers for it.
-    match unsafe { begun(fit) } {
-        Ok(memory) if memory.predicts => memory.fit.observe(duty, step),
-        Ok(_) => return ServoidStatus::TooEarly,
-        Err(status) => return status,
-    }
-    ServoidStatus::Done
+    let memory = unsafe { predicting(fit) };
+    told(memory.map(|memory| memory.fit.observe(duty, step)))
 }
 
 /// Runs models along at most about so many of the periods that were observed; call it in every period, and after the last one until it is
@@ -108,14 +111,11 @@ pub unsafe extern "C" fn servoid_predict_catch_up(
     samples: u32,
 ) -> ServoidStatus {
     // SAFETY: the caller answers for it.
-    match unsafe { begun(fit) } {
-        Ok(memory) if !memory.predicts => ServoidStatus::TooEarly,
-        Ok(memory) => match memory.fit.catch_up(samples) {
-            true => ServoidStatus::Done,
-            false => ServoidStatus::Running,
-        },
-        Err(status) => status,
-    }
+    let memory = unsafe { predicting(fit) };
+    told(memory.and_then(|memory| {
+        let done = memory.fit.catch_up(samples);
+        done.then_some(()).ok_or(ServoidStatus::Running)
+    }))
 }
 
 /// What the motor is good for, by what it predicted; errors within so many counts RMS are the encoder's (0.5 for one that floors).
@@ -130,34 +130,29 @@ pub unsafe extern "C" fn servoid_verdict(
 ) -> ServoidStatus {
     // SAFETY: the caller answers for both.
     let (memory, to) = unsafe { (begun(fit), verdict.as_mut()) };
-    let memory = match memory {
-        Ok(memory) => memory,
-        Err(status) => return status,
-    };
-    let Some(to) = to else {
-        return ServoidStatus::Null;
-    };
-    let Some(predicted) = memory.predicts.then(|| memory.fit.predicted()).flatten() else {
-        return ServoidStatus::TooEarly;
-    };
-    let found = memory.fit.verdict(&predicted, within);
-    *to = ServoidVerdict {
-        grade: match found.grade {
-            Grade::No => ServoidGrade::No,
-            Grade::Control => ServoidGrade::Control,
-            Grade::Floor => ServoidGrade::Floor,
-        },
-        reason: match found.reason {
-            Reason::None => ServoidReason::None,
-            Reason::Left => ServoidReason::Left,
-            Reason::Undetermined => ServoidReason::Undetermined,
-            Reason::Disagrees => ServoidReason::Disagrees,
-            Reason::Predicts => ServoidReason::Predicts,
-        },
-        gain: found.gain,
-        time_constant: found.time_constant,
-        acceleration: found.acceleration,
-        mean_square: predicted.mean_square,
-    };
-    ServoidStatus::Done
+    told(memory.and_then(|memory| {
+        let to = to.ok_or(ServoidStatus::Null)?;
+        let predicted = memory.predicts.then(|| memory.fit.predicted()).flatten();
+        let predicted = predicted.ok_or(ServoidStatus::TooEarly)?;
+        let found = memory.fit.verdict(&predicted, within);
+        *to = ServoidVerdict {
+            grade: match found.grade {
+                Grade::No => ServoidGrade::No,
+                Grade::Control => ServoidGrade::Control,
+                Grade::Floor => ServoidGrade::Floor,
+            },
+            reason: match found.reason {
+                Reason::None => ServoidReason::None,
+                Reason::Left => ServoidReason::Left,
+                Reason::Undetermined => ServoidReason::Undetermined,
+                Reason::Disagrees => ServoidReason::Disagrees,
+                Reason::Predicts => ServoidReason::Predicts,
+            },
+            gain: found.gain,
+            time_constant: found.time_constant,
+            acceleration: found.acceleration,
+            mean_square: predicted.mean_square,
+        };
+        Ok(())
+    }))
 }

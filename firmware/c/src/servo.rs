@@ -1,7 +1,7 @@
 //! A servo out of a fitted motor.
 
-use crate::fit::{Found, ServoidFit, begun};
-use crate::status::ServoidStatus;
+use crate::fit::{ServoidFit, begun};
+use crate::status::{ServoidStatus, told};
 use shared::servo::{Gains, Servo, Target};
 
 /// Memory for a servo. What is in it is not for the caller, but for the gains.
@@ -60,37 +60,32 @@ pub unsafe extern "C" fn servoid_servo_begin(
         return ServoidStatus::Null;
     }
     // SAFETY: the caller answers for it.
-    let memory = match unsafe { begun(fit) } {
-        Ok(memory) => memory,
-        Err(status) => return status,
-    };
-    match memory.found {
-        Found::NotYet => return ServoidStatus::TooEarly,
-        Found::NoModel => return ServoidStatus::NoModel,
-        Found::Motor(_) => {}
-    }
-    let gains = memory.fit.gains(off);
-    let numbers = [gains.position, gains.speed, gains.back_emf, gains.friction];
-    let more = [off, gains.decay, gains.time_constant];
-    let mut all = numbers.iter().chain(&more).chain(&gains.observer);
-    if !(0.0..=1.0).contains(&limit) || off < 0.0 || !all.all(|number| number.is_finite()) {
-        return ServoidStatus::OutOfRange;
-    }
-    let mut began = Begun {
-        mark: MARK,
-        gains,
-        servo: Servo::IDLE,
-    };
-    began.servo.begin(gains, limit);
-    // SAFETY: it is not null, and there is room for it, as asserted above; nothing in it has to be dropped.
-    unsafe {
-        (&raw mut (*servo).position).write(gains.position);
-        (&raw mut (*servo).speed).write(gains.speed);
-        (&raw mut (*servo).back_emf).write(gains.back_emf);
-        (&raw mut (*servo).friction).write(gains.friction);
-        (&raw mut (*servo).memory).cast::<Begun>().write(began);
-    }
-    ServoidStatus::Done
+    let memory = unsafe { begun(fit) };
+    told(memory.and_then(|memory| {
+        memory.found()?;
+        let gains = memory.fit.gains(off);
+        let numbers = [gains.position, gains.speed, gains.back_emf, gains.friction];
+        let more = [off, gains.decay, gains.time_constant];
+        let mut all = numbers.iter().chain(&more).chain(&gains.observer);
+        if !(0.0..=1.0).contains(&limit) || off < 0.0 || !all.all(|number| number.is_finite()) {
+            return Err(ServoidStatus::OutOfRange);
+        }
+        let mut began = Begun {
+            mark: MARK,
+            gains,
+            servo: Servo::IDLE,
+        };
+        began.servo.begin(gains, limit);
+        // SAFETY: it is not null, and there is room for it, as asserted above; nothing in it has to be dropped.
+        unsafe {
+            (&raw mut (*servo).position).write(gains.position);
+            (&raw mut (*servo).speed).write(gains.speed);
+            (&raw mut (*servo).back_emf).write(gains.back_emf);
+            (&raw mut (*servo).friction).write(gains.friction);
+            (&raw mut (*servo).memory).cast::<Begun>().write(began);
+        }
+        Ok(())
+    }))
 }
 
 /// The count went on by `step` in the period that has ended, and the duty that was given last acts now. Gives the duty of the period after

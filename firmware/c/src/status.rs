@@ -19,3 +19,8 @@ pub enum ServoidStatus {
     /// A number is not finite, or beyond its range.
     OutOfRange = 6,
 }
+
+/// How a call ended that may have ended early.
+pub(crate) fn told(ended: Result<(), ServoidStatus>) -> ServoidStatus {
+    ended.err().unwrap_or(ServoidStatus::Done)
+}

@@ -25,15 +25,14 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     /// Length of a driving phase in periods, where it is known in advance.
     pub(super) fn length(&self, phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
-            (_, Kind::Follow) if phase != Phase::Follow => 0,
-            (Phase::Probe, Kind::Play) => 0,
+            (Phase::Follow, Kind::Follow) => u32::MAX,
+            (_, Kind::Follow) | (Phase::Probe, Kind::Play) => 0,
             (Phase::Probe, _) => Script::GROWING_STEPS * Self::periods(PROBE_STEP_US),
             (Phase::Excite, Kind::Play) => u32::MAX,
             (Phase::Excite, _) => job.excite,
             (Phase::Record, kind) if kind.fits() => job.record.into(),
             (Phase::Verify, kind) if kind.fits() => job.verify,
             (Phase::Tune, Kind::Tune) => self.memory.trial.periods(),
-            (Phase::Follow, Kind::Follow) => u32::MAX,
             _ => 0,
         }
     }

@@ -1,7 +1,7 @@
 //! The servo follows set-points that the host sends.
 
 use super::App;
-use super::tune::as_duty;
+use super::closed_loop::{OF_LIMITS, as_duty, as_part};
 use crate::board::Board;
 use crate::guard::Learned;
 use shared::fit::Arithmetic;
@@ -12,8 +12,6 @@ use shared::wire::{Job, SetPoint};
 const REST_US: u32 = 50_000;
 /// One that goes on for longer than this, slowly, will not rest.
 const LONGEST_US: u32 = 500_000;
-/// Part of the limit of speed that is asked for.
-const OF_LIMIT: f32 = 0.8;
 /// What is left to the limit of travel, a part of it.
 const MARGIN: u32 = 16;
 
@@ -39,7 +37,7 @@ impl Kept {
 /// A servo on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Following {
-    servo: Servo,
+    pub(super) servo: Servo,
     target: Target,
     /// Largest position, counts; none if zero.
     travel: u32,
@@ -61,12 +59,11 @@ impl Following {
     pub(super) fn begin(&mut self, kept: &Kept, job: &Job) {
         *self = Self::NONE;
         self.travel = job.limits.travel;
-        let limit = kept.amplitude.min(job.limits.duty);
-        self.servo
-            .begin(kept.gains, f32::from(limit) * (1.0 / 32_768.0));
+        let limit = as_part(kept.amplitude.min(job.limits.duty));
+        self.servo.begin(kept.gains, limit);
         if job.limits.speed > 0 {
             self.servo
-                .no_faster_than(OF_LIMIT * f32::from(job.limits.speed));
+                .no_faster_than(OF_LIMITS * f32::from(job.limits.speed));
         }
     }
 
@@ -89,11 +86,6 @@ impl Following {
                 self.stops = Some((0, 0));
             }
         }
-    }
-
-    /// What acts in place of the next duty.
-    pub(super) fn acts(&mut self, part: f32) {
-        self.servo.acts(part);
     }
 }
 

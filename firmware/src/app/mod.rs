@@ -16,9 +16,12 @@
 //! | `drive` | periods with the bridge closed: brake, play, check, record |
 //! | `rest` | periods with it open: fit, report the outcome |
 //! | `tune` | gains, and a step that tries them |
+//! | `follow` | set-points that the host sends |
+//! | `closed_loop` | what both share |
 //! | `script` | which duty comes next |
 //! | `recording`, `outbox` | the data of a run; the send buffer |
 
+mod closed_loop;
 mod drive;
 mod follow;
 mod link;

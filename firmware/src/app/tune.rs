@@ -1,5 +1,6 @@
 //! From a fitted motor to a servo: gains, a step that is simulated with the fitted motor, and the same step of the motor.
 
+use super::closed_loop::{OF_LIMITS, as_duty, as_part};
 use super::follow::Kept;
 use super::{App, Work};
 use crate::board::Board;
@@ -12,8 +13,6 @@ use shared::wire::{Job, Tuned};
 const ASKED: f32 = 0.5;
 /// Least step, counts, that shows how it is answered.
 const LEAST_STEP: f32 = 20.0;
-/// Part of the limits of travel and speed that a step may take.
-const OF_LIMITS: f32 = 0.8;
 /// Largest speed of a step by its length and the position loop's gain: `2/e`, of two equal poles.
 const PEAK: f32 = 0.74;
 /// A step is watched for so many of its own settling times, and this long beside.
@@ -39,11 +38,6 @@ pub(super) struct Trial {
     read: i32,
     at: i32,
     duty: f32,
-}
-
-/// A part of the supply as a duty, which is never the one that stands for an open bridge.
-pub(super) fn as_duty(part: f32) -> i16 {
-    (part * 32_767.0) as i16
 }
 
 /// The whole counts below an angle.
@@ -96,7 +90,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             return false;
         };
         let gains = self.memory.fit.gains(verdict.acceleration);
-        let limit = f32::from(self.report.amplitude.min(job.limits.duty)) * (1.0 / 32_768.0);
+        let limit = as_part(self.report.amplitude.min(job.limits.duty));
         let mut counts = gains.largest_step(ASKED * limit).max(LEAST_STEP);
         if job.limits.travel > 0 {
             counts = counts.min(OF_LIMITS * job.limits.travel as f32);
@@ -199,10 +193,9 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
 
     /// What the guard made of the next duty.
     pub(super) fn servo_acts(&mut self, duty: i16) {
-        let part = f32::from(duty) * (1.0 / 32_768.0);
         match self.phase {
-            Phase::Follow => self.memory.following.acts(part),
-            _ => self.memory.trial.servo.acts(part),
+            Phase::Follow => self.memory.following.servo.acts(as_part(duty)),
+            _ => self.memory.trial.servo.acts(as_part(duty)),
         }
     }
 }

@@ -69,6 +69,29 @@ pub enum Mischief {
     BrownOut,
 }
 
+impl Mischief {
+    /// Does it to a bench; what a host or a job does, it cannot.
+    pub fn on(self, bench: &mut Bench) {
+        // Parts of the motor's supply, mV.
+        let supply = |part: f32| Some((bench.motor().supply * part * 1000.0) as u16);
+        match self {
+            Mischief::EncoderReversed => bench.encoder = -1,
+            Mischief::EncoderStuck => bench.encoder = 0,
+            Mischief::EncoderLine => bench.line_dead = true,
+            Mischief::EncoderJump => bench.jump(60_000),
+            Mischief::LeadCut => bench.lead_cut = true,
+            Mischief::SensorStuck => bench.current_ma = Some(0),
+            Mischief::SupplySag => bench.supply_mv = supply(0.5),
+            Mischief::SupplyRise => bench.supply_mv = supply(1.5),
+            Mischief::ShaftLocked => bench.locked = true,
+            Mischief::ShortCircuit => bench.current_ma = Some(-30_000),
+            Mischief::BridgeFault => bench.fails = Some(Fault::Bridge),
+            Mischief::Overrun => bench.fails = Some(Fault::Overrun),
+            _ => {}
+        }
+    }
+}
+
 /// A trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trial {
@@ -326,22 +349,7 @@ impl Trial {
             Mischief::Stop => host.send(&ToDevice::Stop),
             _ => {}
         }
-        let bench = &mut *host.bench.borrow_mut();
-        match self.mischief {
-            Mischief::EncoderReversed => bench.encoder = -1,
-            Mischief::EncoderStuck => bench.encoder = 0,
-            Mischief::EncoderLine => bench.line_dead = true,
-            Mischief::EncoderJump => bench.jump(60_000),
-            Mischief::LeadCut => bench.lead_cut = true,
-            Mischief::SensorStuck => bench.current_ma = Some(0),
-            Mischief::SupplySag => bench.supply_mv = Some(12_000),
-            Mischief::SupplyRise => bench.supply_mv = Some(36_000),
-            Mischief::ShaftLocked => bench.locked = true,
-            Mischief::ShortCircuit => bench.current_ma = Some(-30_000),
-            Mischief::BridgeFault => bench.fails = Some(Fault::Bridge),
-            Mischief::Overrun => bench.fails = Some(Fault::Overrun),
-            _ => {}
-        }
+        self.mischief.on(&mut host.bench.borrow_mut());
     }
 }
 

@@ -14,6 +14,17 @@ pub struct ColumnsError {
     pub why: String,
 }
 
+impl ColumnsError {
+    /// Of a file as a whole.
+    pub fn of(path: &Path, why: String) -> Self {
+        ColumnsError {
+            path: path.to_path_buf(),
+            line: None,
+            why,
+        }
+    }
+}
+
 /// Columns of a table, all of one length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns<const N: usize> {
@@ -33,9 +44,8 @@ pub fn columns<const N: usize>(
     usual: &str,
 ) -> Result<Columns<N>, ColumnsError> {
     let wrong = |line: Option<u64>, why: String| ColumnsError {
-        path: path.to_path_buf(),
         line,
-        why,
+        ..ColumnsError::of(path, why)
     };
     let reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))

@@ -265,13 +265,8 @@ impl CommandSequence {
             time_s,
             named: [voltage_v, enabled],
         } = columns(path, ["voltage_v", "enabled"], USUAL)?;
-        let Some(voltage_v) = voltage_v else {
-            return Err(ColumnsError {
-                path: path.to_path_buf(),
-                line: None,
-                why: format!("no column `voltage_v`; {USUAL}"),
-            });
-        };
+        let voltage_v = voltage_v
+            .ok_or_else(|| ColumnsError::of(path, format!("no column `voltage_v`; {USUAL}")))?;
         Ok(CommandSequence {
             time_s,
             voltage_v,

@@ -40,11 +40,7 @@ impl Course {
     /// # Errors
     /// A file that cannot be read or is no such table, with file and line.
     pub fn read(path: &Path, last_s: f64) -> Result<Self, ColumnsError> {
-        let wrong = |why: String| ColumnsError {
-            path: path.to_path_buf(),
-            line: None,
-            why,
-        };
+        let wrong = |why: &str| ColumnsError::of(path, why.to_owned());
         let Columns {
             time_s: times,
             named: [angle, speed],
@@ -52,10 +48,10 @@ impl Course {
         let aims: Vec<Aim> = match (angle, speed) {
             (Some(angles), None) => angles.into_iter().map(Aim::Angle).collect(),
             (None, Some(speeds)) => speeds.into_iter().map(Aim::Speed).collect(),
-            _ => return Err(wrong(USUAL.to_owned())),
+            _ => return Err(wrong(USUAL)),
         };
         let Some((first, last)) = times.first().copied().zip(times.last().copied()) else {
-            return Err(wrong("has no rows".to_owned()));
+            return Err(wrong("has no rows"));
         };
         let from_start = times.iter().map(|time| time - first);
         Ok(Course {

@@ -109,10 +109,7 @@ fn until_the_end(
             stopped.get_or_insert(now);
         }
         // In the device's time, which an emulated one's is slower than ours. Said again as often as that the host is there: it may be lost.
-        let due = course
-            .iter()
-            .filter(|(from, _)| Some(*from) <= along)
-            .count();
+        let due = course.partition_point(|(from, _)| Some(*from) <= along);
         if now.duration_since(said) >= ALIVE || due > held {
             conversation.say(&match course[..due].last() {
                 Some((_, set_point)) => ToDevice::SetPoint(*set_point),
