@@ -10,6 +10,8 @@ use super::plant::{Feed, Grip, Plant, State};
 
 /// Substeps in the shortest time constant at [`DEFAULT_SUBSTEP_HZ`].
 const STEPS_PER_TIME_CONSTANT: f64 = 4.0;
+/// Times as many where a bridge switches: after each of its edges the current is far from rest.
+const FINER_BEHIND_A_BRIDGE: f64 = 4.0;
 /// The substep rate unless the bench asks for another, Hz.
 pub(super) const DEFAULT_SUBSTEP_HZ: f64 = 40_000.0;
 /// Shorter substeps than this would take minutes, and mean that some parameter is far off, s.
@@ -40,7 +42,10 @@ impl Plant<'_> {
                 return Err(BenchError::TooStiff { step_s: longest });
             }
             let steps = (left / longest).ceil();
-            left -= self.step(feed, left / steps);
+            let until_edge = self.connect(feed);
+            let taken = self.step(feed, (left / steps).min(until_edge));
+            self.clock_s += taken;
+            left -= taken;
         }
         Ok(())
     }
@@ -75,10 +80,25 @@ impl Plant<'_> {
         after
     }
 
-    /// Notes which flank and which pieces of the effects' laws apply now.
+    /// Switches the bridge, if one switches; returns the time to its next edge, s.
+    fn connect(&mut self, feed: Feed) -> f64 {
+        let (Some((index, bridge)), Feed::Volts(command)) = (self.bridge, feed) else {
+            self.legs = None;
+            return f64::INFINITY;
+        };
+        let mean = self.behind(command, &self.effects[..index]);
+        let (until_edge, legs) = bridge.until_edge(mean, self.clock_s);
+        self.legs = Some(legs);
+        // What the current chooses may differ from the last stretch without a bend of anything.
+        self.look_around();
+        until_edge
+    }
+
+    /// Notes which flank, which pieces of the effects' laws and which side of the bridge apply now.
     fn look_around(&mut self) {
         self.flank = self.flank_at(&self.state);
         self.pieces = self.pieces_at(&self.state);
+        self.side = self.side_at(&self.state);
     }
 
     /// True if the right-hand side has a kink or a jump between the present state and `next`.
@@ -87,6 +107,7 @@ impl Plant<'_> {
             || self.load_grip_changes(next)
             || self.flank_at(next) != self.flank
             || self.pieces_at(next) != self.pieces
+            || self.side_at(next) != self.side
     }
 
     /// True if the shaft has stopped sliding, or the torque exceeds the holding friction.
@@ -167,6 +188,9 @@ impl Plant<'_> {
         }
         for (index, effect) in self.effects.iter().enumerate() {
             fastest += effect.stiffness_per_s(&self.at(index, &self.state));
+        }
+        if self.bridge.is_some() {
+            fastest *= FINER_BEHIND_A_BRIDGE;
         }
         let refinement = self.substep_hz / DEFAULT_SUBSTEP_HZ;
         1.0 / self

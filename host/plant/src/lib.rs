@@ -19,6 +19,7 @@
 //! | `timeline` | the time at which each command reaches the bridge |
 //! | `plant` | the state and its differential equations |
 //! | `integrate` | the state moved forward, with stops, releases and contacts located |
+//! | `bridge` | two half bridges that switch, with their dead time |
 //! | `coupling` | the spring and the gap between motor and load |
 //! | `encoder` | from the shaft's angle to a counter reading |
 //! | `position` | a drive that closes a position loop |
@@ -43,6 +44,7 @@
 
 #![forbid(unsafe_code)]
 
+mod bridge;
 mod chance;
 mod coupling;
 pub mod effects;

@@ -12,6 +12,7 @@
 //! the equations are evaluated, so that their right-hand side is smooth. `integrate` moves the
 //! state forward and changes both when it is time.
 
+use super::bridge::{Bridge, Legs};
 use super::coupling::{Flank, Shaft};
 use super::effects::{At, Effect, Sliding, Winding};
 use super::{Coupling, Machine};
@@ -93,6 +94,14 @@ pub(super) struct Plant<'a> {
     pub(super) load_grip: Grip,
     pub(super) flank: Flank,
     pub(super) pieces: i64,
+    /// The bridge that switches, with its place among the effects.
+    pub(super) bridge: Option<(usize, Bridge)>,
+    /// What its legs are connected to in this substep.
+    pub(super) legs: Option<Legs>,
+    /// The side of those that the current chose as the substep began.
+    pub(super) side: i8,
+    /// Time since the start, s.
+    pub(super) clock_s: f64,
     pub(super) state: State,
     /// A torque on the shaft from outside, N·m.
     pub(super) disturbance_n_m: f64,
@@ -144,6 +153,13 @@ impl<'a> Plant<'a> {
             },
             flank: Flank::None,
             pieces: 0,
+            bridge: effects
+                .iter()
+                .enumerate()
+                .find_map(|(index, effect)| Some((index, effect.bridge()?))),
+            legs: None,
+            side: 0,
+            clock_s: 0.0,
             state,
             disturbance_n_m: 0.0,
             drive_v: 0.0,
@@ -186,7 +202,14 @@ impl<'a> Plant<'a> {
                 let rates = effect.memory_rates(&at);
                 memory[own.clone()].copy_from_slice(&rates[..own.len()]);
             }
-            volts = effect.volts(volts, &at);
+            volts = match (self.bridge, &self.legs) {
+                (Some((switching, bridge)), Some(legs)) if switching == index => {
+                    let emf = winding.kb_v_s_rad * state.speed;
+                    let still = emf + winding.resistance_ohm * state.current;
+                    bridge.volts(legs, self.side, emf, still)
+                }
+                _ => effect.volts(volts, &at),
+            };
         }
         let [mut inertia, mut by_angle] = [self.motor_inertia_kg_m2, 0.0];
         for effect in self.effects {
@@ -268,7 +291,12 @@ impl<'a> Plant<'a> {
         let Feed::Volts(command) = feed else {
             return 0.0;
         };
-        let effects = self.effects.iter().enumerate();
+        self.behind(command, self.effects)
+    }
+
+    /// The voltage behind some effects, the first ones of the motor, from the command, V: the mean of what a bridge switches.
+    pub(super) fn behind(&self, command: f64, effects: &[Arc<dyn Effect>]) -> f64 {
+        let effects = effects.iter().enumerate();
         effects.fold(command, |volts, (index, effect)| {
             let at = At {
                 volts,
@@ -288,6 +316,14 @@ impl<'a> Plant<'a> {
         effects.fold(0, |digits, (index, effect)| {
             3 * digits + i64::from(effect.piece(&self.at(index, state), transmitted))
         })
+    }
+
+    /// The side of the bridge that a current chooses.
+    pub(super) fn side_at(&self, state: &State) -> i8 {
+        match (self.bridge, &self.legs) {
+            (Some((_, bridge)), Some(legs)) => bridge.side(legs, state.current),
+            _ => 0,
+        }
     }
 
     pub(super) fn flank_at(&self, state: &State) -> Flank {

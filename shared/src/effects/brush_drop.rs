@@ -59,6 +59,7 @@ impl<S: Scalar> Effect<S> for BrushDrop<S> {
                 drop: units.number(values[0], Quantity::Voltage),
                 knee: units.number(values[1], Quantity::Voltage),
                 form: units.number(values[2], Quantity::Ratio),
+                ..Brush::default()
             },
         }
     }

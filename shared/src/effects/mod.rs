@@ -14,6 +14,7 @@ mod brush_drop;
 mod cogging;
 mod compliance;
 mod coulomb;
+mod dead_time;
 mod dead_zone;
 mod delay;
 mod enc_ecc;
@@ -31,6 +32,7 @@ mod unbalance;
 mod voltage_sat;
 mod windage;
 
+mod brush;
 mod chebyshev;
 mod decay;
 mod describe;
@@ -44,11 +46,12 @@ mod set;
 mod shaft;
 mod tangent;
 
+pub use brush::{Brush, Spared, WHOLE_DROP};
 pub use describe::{Description, Form, MAX_PARAMETERS, Parameter, Place};
 pub use facts::{AtSpeed, Contained, Evidence, Facts, Order, Other, Pair, Starts, ToldFrom, Value};
 pub use lowered::Lowered;
 pub use set::EffectSet;
-pub use shaft::{Brush, Budget, Coupling, Shaft, Stiff, WHOLE_DROP, Winding};
+pub use shaft::{Budget, Coupling, Shaft, Stiff, Winding};
 
 use crate::error::ModelError;
 use crate::motor::Machine;
@@ -160,7 +163,7 @@ pub trait Effect<S: Scalar>: Copy {
     fn drive(&self, volts: S) -> S {
         volts
     }
-    /// Drop of the brushes.
+    /// Voltage lost against the current, by the brushes or by the bridge's dead time.
     #[inline(always)]
     fn brush(&self) -> Brush<S> {
         Brush::default()
@@ -464,6 +467,8 @@ kinds! {
     AsymViscous in asym_viscous,
     /// Friction that grows with the torque passed on.
     LoadFriction in load_friction,
+    /// Voltage lost while both transistors of a bridge's leg are off.
+    DeadTime in dead_time,
 }
 
 impl Kind {

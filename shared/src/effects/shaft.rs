@@ -1,6 +1,5 @@
 //! What an effect sees of the motor, and what it may give back. Per unit.
 
-use super::tangent::tanh;
 use crate::scalar::{Mask, Real, Scalar, lanes};
 
 /// The mean state of shaft and winding over a part of a step.
@@ -196,59 +195,6 @@ impl<S: Scalar> Winding<S> {
             volts: self.volts + other.volts,
             doubt: self.doubt + other.doubt,
         }
-    }
-}
-
-/// A voltage lost against the current: proportional up to a knee, constant beyond; or rounded.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Brush<S> {
-    /// Voltage beyond the knee.
-    pub drop: S,
-    /// Current of the knee, as the voltage across the resistance.
-    pub knee: S,
-    /// 0 for the sharp knee, 1 for a hyperbolic tangent; between and beyond, a blend of the two.
-    pub form: S,
-}
-
-lanes!(Brush { drop, knee, form });
-
-/// Currents from here on, in knees, lose the whole drop: the tangent lacks 2e-6 of it.
-pub const WHOLE_DROP: f64 = 7.0;
-
-impl<S: Scalar> Brush<S> {
-    /// Both, which bend at the later of their knees.
-    #[inline(always)]
-    pub fn and(self, other: Self) -> Self {
-        Brush {
-            drop: self.drop + other.drop,
-            knee: self.knee.max(other.knee),
-            form: self.form + other.form,
-        }
-    }
-
-    /// Whether the knee is not sharp.
-    #[inline(always)]
-    pub fn is_rounded(&self) -> S::Mask {
-        self.form.less(S::zero()).or(S::zero().less(self.form))
-    }
-
-    /// The part of the drop that is lost at a current of so many knees, from 0 to [`WHOLE_DROP`], and its slope there.
-    #[inline(always)]
-    pub fn lost(&self, knees: S) -> (S, S) {
-        let one = S::from_f64(1.0);
-        let sharp = one - self.form;
-        let tanh = tanh(knees);
-        let slope = S::select(knees.less(one), sharp, S::zero());
-        (
-            sharp * knees.min(one) + self.form * tanh,
-            slope + self.form * (one - tanh * tanh),
-        )
-    }
-
-    /// Where on the law a current is: −1 or 1 beyond the knee, 0 within.
-    #[inline(always)]
-    pub fn side(&self, current: S) -> S {
-        S::select(current.abs().less(self.knee), S::zero(), current.signum())
     }
 }
 

@@ -225,7 +225,7 @@ impl<S: Scalar> Model<S> {
             let current = shaft.current - gain * extra;
             let (again, doubt) = substep.extra_volts(&shaft, &Shaft { current, ..shaft });
             shaft.current = current + gain * again;
-            bent = bends(&effects.brush, start, &shaft);
+            bent = bends(&effects.brush, volts, start, &shaft);
             change = change + (again - extra).abs() + doubt;
             extra = again;
         }

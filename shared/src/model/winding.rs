@@ -10,7 +10,8 @@
 //! defines the volts `E` that the plain winding must see instead. Its mean is solved for, with the
 //! gain `g` of the mean current: the current follows within the substep when the winding is fast, and
 //! an explicit formula would overshoot. `D = Vb·clamp(c/knee, ±1)` has one bend each way and is
-//! solved exactly; a rounded knee by Newton's method from there.
+//! solved exactly; a rounded knee by Newton's method from there. Where a ripple spares currents, their distance from those stands for
+//! `|c|`.
 
 use super::substep_map::SubstepTiming;
 use crate::effects::{Brush, Shaft, WHOLE_DROP, Winding};
@@ -45,14 +46,18 @@ pub fn extra_volts<S: Scalar>(
     }
     // The current without brushes, times the stiffness.
     let current = free.current * stiffness + gain * given;
-    let most = brush.drop + rate * brush.drop;
+    let spared = brush.spared(volts);
+    let off = current - spared.centre * stiffness;
+    let beyond = (off.abs() - spared.half * stiffness).max(S::zero());
+    let most = brush.most(volts, off);
+    let most = most + rate * most;
     let knee = brush.knee * stiffness;
-    let mut part = current.abs().part_of(knee + gain * most);
+    let mut part = beyond.part_of(knee + gain * most);
     if brush.is_rounded().any() {
-        let rounded = rounded_part(brush, current.abs(), part, knee, gain * most);
+        let rounded = rounded_part(brush, beyond, part, knee, gain * most);
         part = S::select(brush.is_rounded(), rounded, part);
     }
-    let drop = most * part * current.signum();
+    let drop = most * part * off.signum();
     (given - drop) * scale
 }
 
@@ -80,11 +85,12 @@ fn rounded_part<S: Scalar>(brush: &Brush<S>, current: S, sharp: S, knee: S, most
     brush.lost(knees).0
 }
 
-/// Whether the current passes a bend of the brushes' law within the substep.
+/// Whether the current passes a bend of the brushes' law within the substep, with the drive at `volts`.
 #[inline(always)]
-pub fn bends<S: Scalar>(brush: &Brush<S>, start: &Shaft<S>, mean: &Shaft<S>) -> S::Mask {
+pub fn bends<S: Scalar>(brush: &Brush<S>, volts: S, start: &Shaft<S>, mean: &Shaft<S>) -> S::Mask {
     let zero = S::zero();
-    let moved = brush.side(start.current) - brush.side(start.current + mean.current_change);
+    let end = start.current + mean.current_change;
+    let moved = brush.side(volts, start.current) - brush.side(volts, end);
     let bent = zero.less(moved).or(moved.less(zero));
     bent.and(zero.less(brush.drop))
 }

@@ -1,5 +1,6 @@
 //! The effects that the bench can hide in a motor: what an effect may touch, and the catalogue.
 
+use super::bridge::Bridge;
 use super::chance::Chance;
 use super::coupling::Coupling;
 use super::machine::Machine;
@@ -11,6 +12,7 @@ mod brush_drop;
 mod cogging;
 mod compliance;
 mod coulomb;
+mod dead_time;
 mod dead_zone;
 mod delay;
 mod enc_ecc;
@@ -36,6 +38,7 @@ pub static CATALOGUE: &[&Kind] = &[
     &dead_zone::KIND,
     &voltage_sat::KIND,
     &supply_sag::KIND,
+    &dead_time::KIND,
     &brush_drop::KIND,
     &l_sat::KIND,
     &heating::KIND,
@@ -211,6 +214,11 @@ pub trait Effect: Send + Sync {
     /// Voltage behind this effect, from the voltage before it.
     fn volts(&self, volts: f64, _at: &At) -> f64 {
         volts
+    }
+
+    /// The bridge that switches the armature, if this effect is one: it gives the voltage before the effect as its mean.
+    fn bridge(&self) -> Option<Bridge> {
+        None
     }
 
     /// Changes the winding's parameters.

@@ -156,6 +156,9 @@ fn remedy(place: Place, name: &str) -> &'static str {
         "dead_zone" | "brush_drop" => {
             "add its voltage with the sign of the command, or of the current"
         }
+        "dead_time" => {
+            "let the timer lengthen each pulse by it, by the sign of the current; or add its voltage with that sign"
+        }
         "delay" => {
             "predict the angle over the delay, or lower the bandwidth: the delay takes phase margin"
         }

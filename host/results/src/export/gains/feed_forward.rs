@@ -61,7 +61,7 @@ impl FeedForward {
             Kind::DeadZone => Carried::Without(
                 "right where the command has the sign of the speed, wrong while braking hard",
             ),
-            Kind::BrushDrop => Carried::Not(
+            Kind::BrushDrop | Kind::DeadTime => Carried::Not(
                 "it changes its sign with the current, not with the speed: while driving, add its voltage to kS",
             ),
             Kind::VoltageSat => Carried::Not("limit the output to it"),
