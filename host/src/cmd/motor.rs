@@ -197,6 +197,8 @@ pub(super) fn motor_file(args: &MotorArgs, recording: &Path) -> Result<MotorFile
     known.inertia_kg_m2 = new.inertia_kg_m2.or(known.inertia_kg_m2);
     known.viscous_n_m_s = new.viscous_n_m_s.or(known.viscous_n_m_s);
     known.unbalance_n_m = new.unbalance_n_m.or(known.unbalance_n_m);
+    known.carrier_hz = new.carrier_hz.or(known.carrier_hz);
+    known.dead_time_s = new.dead_time_s.or(known.dead_time_s);
     known.kt_equals_kb |= args.kt_equals_kb;
     Ok(motor)
 }

@@ -4,6 +4,7 @@ use crate::contract::{is_fit, number, parameter};
 use crate::desk::Desk;
 use crate::report::is_alone;
 use crate::width::fits_a_terminal;
+use shared::effects::Kind;
 
 #[test]
 fn the_demo_writes_one_page_that_fetches_nothing() {
@@ -67,13 +68,21 @@ fn a_blind_demo_reveals_its_secret_at_the_end() {
     let line = "demo --blind --seed 4 --out page.html";
     let text = Desk::new().done(line).stdout;
     fits_a_terminal(line, &text);
-    let reveal = text.find("the bench knows the truth: hidden was heating");
-    let reveal = reveal.unwrap_or_else(|| panic!("{text}"));
+    let told = "the bench knows the truth: hidden was ";
+    let (before, after) = text.split_once(told).unwrap_or_else(|| panic!("{text}"));
     assert!(
-        text[..reveal].contains("something that is told at the end"),
+        before.contains("something that is told at the end"),
         "{text}"
     );
-    assert!(!text[..text.find("missing_effects").unwrap_or(0)].contains("heating"));
+    let secret: String = after
+        .chars()
+        .take_while(|c| *c == '_' || c.is_alphanumeric())
+        .collect();
+    assert!(Kind::by_name(&secret).is_some(), "`{secret}` of {text}");
+    let (begin, _) = before
+        .split_once("missing_effects")
+        .unwrap_or_else(|| panic!("{text}"));
+    assert!(!begin.contains(&secret), "{text}");
 }
 
 /// Friction is hidden; the linear motor fails on it, and the model with friction does not.

@@ -32,6 +32,7 @@
 
 mod armature_current;
 mod bound;
+pub mod bridge;
 mod correlation_time;
 mod error_ladder;
 pub(crate) mod filter;

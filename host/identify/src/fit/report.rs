@@ -1,6 +1,7 @@
 //! What a fit found, in the user's terms: parameters with errors, what stays undetermined and why.
 
 use super::armature_current::current_evidence;
+use super::bridge;
 use super::interval::ReadingNoise;
 use super::joint::Joint;
 use super::margins::{Loop, Margins};
@@ -205,6 +206,7 @@ impl Fit {
         if let Some(reconciled) = &reconciled {
             describe(problem, reconciled, &options.known, &mut notes);
         }
+        notes.extend(bridge::remark(&candidate, data.supply, &options.known));
         let windowed = scores::windowed(data, &candidate, options);
         let range_notes = remarks::range_notes(problem, found);
         remarks::remarks(

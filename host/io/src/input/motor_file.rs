@@ -68,6 +68,10 @@ pub struct Known {
     pub viscous_n_m_s: Option<Fact>,
     /// Largest torque of an eccentric weight on the shaft, `m·g·l`, N·m: of a pendulum, an arm, a mass that was put on.
     pub unbalance_n_m: Option<Fact>,
+    /// Frequency of the carrier of the bridge that drives the motor, Hz.
+    pub carrier_hz: Option<Fact>,
+    /// Dead time that the bridge's timer was told, s.
+    pub dead_time_s: Option<Fact>,
     /// Whether torque and back-EMF constant are one number, as they are in SI units without iron losses.
     pub kt_equals_kb: bool,
 }

@@ -9,7 +9,7 @@ use super::preset::Preset;
 use super::section::{Found, NumberOrTable, Section, Text};
 use crate::channel::{Channel, Measured, PerMeasured};
 
-const FACTS: [&str; 8] = [
+const FACTS: [&str; 10] = [
     "resistance_ohm",
     "inductance_h",
     "kt_n_m_a",
@@ -17,6 +17,8 @@ const FACTS: [&str; 8] = [
     "inertia_kg_m2",
     "viscous_n_m_s",
     "unbalance_n_m",
+    "carrier_hz",
+    "dead_time_s",
     "kt_equals_kb",
 ];
 const TOP: [&str; 4] = ["name", "counts_per_rev", "supply_v", "metres_per_rev"];
@@ -162,6 +164,8 @@ fn known(mut section: Section<'_>) -> Result<Known, MotorFileError> {
         inertia_kg_m2: fact(&mut section, "inertia_kg_m2")?,
         viscous_n_m_s: fact(&mut section, "viscous_n_m_s")?,
         unbalance_n_m: fact(&mut section, "unbalance_n_m")?,
+        carrier_hz: fact(&mut section, "carrier_hz")?,
+        dead_time_s: fact(&mut section, "dead_time_s")?,
         kt_equals_kb: false,
     };
     let equal = section.boolean("kt_equals_kb")?;

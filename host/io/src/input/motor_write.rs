@@ -145,7 +145,11 @@ fn known(known: &Known) -> String {
         .facts()
         .map(|(key, fact)| (key, fact.map(fact_text)))
         .into();
-    lines.push(("unbalance_n_m", known.unbalance_n_m.map(fact_text)));
+    lines.extend([
+        ("unbalance_n_m", known.unbalance_n_m.map(fact_text)),
+        ("carrier_hz", known.carrier_hz.map(fact_text)),
+        ("dead_time_s", known.dead_time_s.map(fact_text)),
+    ]);
     lines.push(("kt_equals_kb", known.kt_equals_kb.then(|| "true".into())));
     section("known", &lines)
 }

@@ -5,7 +5,7 @@ use super::{DutyScale, FolderError, Recorded};
 use crate::schema::DeviceRun;
 use crate::schema::device::FILE as DEVICE;
 use servoid_io::channel::{Measured, Series};
-use servoid_io::input::{MotorFile, read_recording};
+use servoid_io::input::{Fact, Known, MotorFile, read_recording};
 use servoid_io::output::{write_recording, write_whole};
 use servoid_io::recording::{Drive, Recording};
 use shared::trace::OPEN;
@@ -118,7 +118,7 @@ impl Folder {
             write_recording(&self.path.join(name), &recording, &provenance)?;
             written.push(name);
         }
-        let motor = motor_file(saved.supply_v, saved.counts_per_rev);
+        let motor = motor_file(saved.supply_v, saved.counts_per_rev, behind(saved));
         write_whole(&self.path.join(MOTOR), |out| {
             out.write_all(motor.as_bytes())
         })?;
@@ -170,13 +170,34 @@ impl Folder {
 }
 
 /// The motor file of a run.
-pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64) -> String {
+pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64, known: Known) -> String {
     MotorFile {
         counts_per_rev: Some(counts_per_rev),
         supply_v: Some(supply_v),
+        known,
         ..MotorFile::default()
     }
     .to_toml()
+}
+
+/// What the board says of its bridge.
+fn behind(saved: &DeviceRun) -> Known {
+    if saved.fit.carriers == 0 {
+        return Known::default();
+    }
+    let exact = |value| Fact {
+        value,
+        tolerance: None,
+    };
+    let carrier_hz = f64::from(saved.fit.carriers) / (f64::from(saved.period_us) * 1e-6);
+    let lost = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
+    Known {
+        carrier_hz: Some(exact(carrier_hz)),
+        dead_time_s: Some(0.5 * lost / carrier_hz)
+            .filter(|told| *told > 0.0)
+            .map(exact),
+        ..Known::default()
+    }
 }
 
 /// The rows of a stage before the first gap as a recording; the reading after the last period is a row of its own, with no drive.

@@ -3,6 +3,7 @@
 use super::folder::{MOTOR, RECORDINGS, motor_file};
 use super::lines::{COLUMNS, Lines};
 use super::{DutyScale, FolderError};
+use servoid_io::input::Known;
 use servoid_io::output::write_whole;
 use shared::wire::Rows;
 use std::collections::BTreeMap;
@@ -41,7 +42,7 @@ impl Live {
         scale: DutyScale,
         counts_per_rev: f64,
     ) -> Result<Self, FolderError> {
-        let motor = motor_file(scale.supply_v, counts_per_rev);
+        let motor = motor_file(scale.supply_v, counts_per_rev, Known::default());
         write_whole(&folder.join(MOTOR), |out| out.write_all(motor.as_bytes()))?;
         Ok(Live {
             folder: folder.to_owned(),

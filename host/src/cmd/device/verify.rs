@@ -96,11 +96,10 @@ pub(super) fn run(session: &Session, args: &VerifyArgs) -> Result<(), Error> {
 }
 
 fn fitted_effects(saved: &DeviceRun) -> Vec<Kind> {
-    // At one supply voltage what the dead time takes is what brushes drop.
     let flags = [
         (saved.fit.coulomb, Kind::Coulomb),
         (saved.fit.load, Kind::LoadTorque),
-        (saved.fit.carriers > 0, Kind::BrushDrop),
+        (saved.fit.carriers > 0, Kind::DeadTime),
         (saved.fit.supply, Kind::SupplySag),
     ];
     flags
@@ -108,6 +107,11 @@ fn fitted_effects(saved: &DeviceRun) -> Vec<Kind> {
         .filter(|(on, _)| *on)
         .map(|(_, kind)| kind)
         .collect()
+}
+
+/// Whether an effect is what a fitted dead time takes: at one supply voltage brushes drop the same.
+fn is_lost_by_the_bridge(kind: Kind, fitted: &[Kind]) -> bool {
+    kind == Kind::BrushDrop && fitted.contains(&Kind::DeadTime)
 }
 
 fn bits(saved: &DeviceRun, outcome: &Outcome, replayed: &Replayed, periods: usize) -> String {
@@ -165,18 +169,18 @@ fn stronger(
     })
 }
 
-/// The bridge's dead time by both fits, of which the host's sees it as a voltage that brushes drop, and by the board.
+/// The bridge's dead time by both fits and by the board.
 fn dead_time(saved: &DeviceRun, outcome: &Outcome, found: &Candidate) -> DeadTime {
     let whole_s = dead_time_s(&saved.fit, f64::from(saved.period_us) * 1e-6);
     let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
-    let brushes = found
+    let own = found
         .effects
         .iter()
-        .find(|(kind, _)| *kind == Kind::BrushDrop);
-    let dropped = brushes.and_then(|(_, values)| values.first().copied());
+        .find(|(kind, _)| *kind == Kind::DeadTime);
+    let lost = own.and_then(|(_, values)| values.first().copied());
     DeadTime {
         device_s: outcome.value("dead_time").and_then(finite),
-        host_s: dropped.and_then(|volts| finite(volts / saved.supply_v * whole_s)),
+        host_s: lost.and_then(|volts| finite(volts / saved.supply_v * whole_s)),
         told_s: Some(told * whole_s).filter(|told| *told > 0.0),
     }
 }
@@ -284,7 +288,7 @@ fn verdict(
     let missing: Vec<&str> = diagnosed
         .names
         .iter()
-        .filter(|kind| !fitted.contains(kind))
+        .filter(|kind| !fitted.contains(kind) && !is_lost_by_the_bridge(**kind, fitted))
         .map(|kind| kind.name())
         .collect();
     if !diagnosed.explained {
