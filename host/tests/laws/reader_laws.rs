@@ -243,8 +243,9 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
             columns
         },
     );
-    let known = (fact(), fact(), fact(), fact(), fact(), fact(), fact()).prop_map(
-        |(r, l, kt, kb, j, f, w)| Known {
+    let of_motor = (fact(), fact(), fact(), fact(), fact(), fact(), fact());
+    let known =
+        (of_motor, fact(), fact()).prop_map(|((r, l, kt, kb, j, f, w), carrier, dead)| Known {
             resistance_ohm: r,
             inductance_h: l,
             kt_n_m_a: kt,
@@ -252,9 +253,10 @@ fn motor_file() -> impl Strategy<Value = MotorFile> {
             inertia_kg_m2: j,
             viscous_n_m_s: f,
             unbalance_n_m: w,
+            carrier_hz: carrier,
+            dead_time_s: dead,
             kt_equals_kb: kt.is_none() || kb.is_none(),
-        },
-    );
+        });
     let numbers = (
         prop::option::of("\\PC*"),
         positive(),
