@@ -48,7 +48,14 @@ pub struct Kept {
     /// All that arrived.
     pub run: Run,
     /// Names of the recordings in the folder.
-    pub written: Vec<&'static str>,
+    pub written: Vec<String>,
+}
+
+impl Kept {
+    /// Whether the folder has the recording of this name.
+    pub fn has_written(&self, name: &str) -> bool {
+        self.written.iter().any(|written| written == name)
+    }
 }
 
 /// As [`drive`], into a folder.

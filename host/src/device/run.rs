@@ -186,11 +186,7 @@ fn until_the_end(
 fn enter(recorded: &mut Vec<Recorded>, rows: &Rows) -> bool {
     let known = recorded.iter().position(|part| part.stage == rows.stage);
     let index = known.unwrap_or_else(|| {
-        recorded.push(Recorded {
-            stage: rows.stage,
-            count: rows.count,
-            rows: Vec::new(),
-        });
+        recorded.push(Recorded::new(rows.stage, rows.count));
         recorded.len() - 1
     });
     let before = recorded[index].rows.len();
@@ -214,9 +210,7 @@ fn resend(conversation: &mut Conversation, recorded: &mut [Recorded]) -> Result<
                 && rows.stage == Stage::Record
                 && rows.first as usize + rows.rows.len() <= part.rows.len()
             {
-                let count = part.count;
-                part.take(&rows);
-                part.count = count;
+                part.take_again(&rows);
             }
         }
         if conversation.since(begun) > GONE {

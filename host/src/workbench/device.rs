@@ -187,11 +187,7 @@ impl Device {
         let about = conversation.about()?;
         *locked(&self.run) = Some(UnderWay {
             what,
-            recorded: Recorded {
-                stage: Stage::Idle,
-                count: 0,
-                rows: Vec::new(),
-            },
+            recorded: Recorded::new(Stage::Idle, 0),
             length: None,
             models: None,
             planned,
@@ -230,7 +226,7 @@ impl Device {
     /// The periods that arrived of a run that is under way, as a recording.
     pub(super) fn so_far(&self, run: &UnderWay) -> servoid_io::recording::Recording {
         recording(
-            &run.recorded,
+            &run.recorded.start(),
             self.about.period_us,
             self.order.scale(&self.about),
             self.order.counts_per_rev,
@@ -281,11 +277,7 @@ impl UnderWay {
         match told {
             Progress::Stage(stage, length) => {
                 self.length = length;
-                self.recorded = Recorded {
-                    stage,
-                    count: 0,
-                    rows: Vec::new(),
-                };
+                self.recorded = Recorded::new(stage, 0);
             }
             // Rows of an earlier stage that come late are in the file, and are no longer looked at.
             Progress::Rows(rows) if rows.stage == self.recorded.stage => self.recorded.take(rows),

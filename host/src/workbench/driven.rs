@@ -113,7 +113,7 @@ pub(super) fn commission(bench: &Arc<Bench>, seconds: f64) -> Result<(), Error> 
     let (kept, folder) = run(bench, "commission", &order, &[], None)?;
     device.commission(&kept.saved);
     let mut recordings = vec![(loaded(&folder, &kept, "recording.csv")?, Role::Fitted)];
-    if kept.written.contains(&"verify.csv") {
+    if kept.has_written("verify.csv") {
         recordings.push((loaded(&folder, &kept, "verify.csv")?, Role::HeldOut));
     }
     place(bench, recordings)?;
@@ -144,7 +144,7 @@ fn run(
 
 /// A recording of a run as a user's file would be.
 fn loaded(folder: &Folder, kept: &Kept, name: &str) -> Result<Loaded, Error> {
-    if !kept.written.contains(&name) {
+    if !kept.has_written(name) {
         let why = kept.saved.failure.as_ref();
         return Err(Error::Failed(format!(
             "nothing was recorded: {}",

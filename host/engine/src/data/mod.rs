@@ -313,6 +313,19 @@ impl Data {
         speed.abs() * self.units.interval * COUNTER_HALF_WIDTH as f64 > 1.0
     }
 
+    /// Whether the samples from `k`, the first of a recording, show that the motor was in motion before: by several counts as far in the
+    /// first samples as in as many after them, where a motor that starts at rest comes a third as far.
+    pub fn starts_moving(&self, k: usize) -> bool {
+        let recording = self.recordings.around(k, 2 * COUNTER_HALF_WIDTH);
+        let (middle, end) = (k + COUNTER_HALF_WIDTH, k + 2 * COUNTER_HALF_WIDTH);
+        if end >= recording.end {
+            return false;
+        }
+        let first = self.centre(middle) - self.centre(k);
+        let second = self.centre(end) - self.centre(middle);
+        first * second > 0.0 && first.abs() >= SURE_COUNTS && first.abs() >= AS_FAR * second.abs()
+    }
+
     /// Speed at `k`, the first sample of a recording, rad/s: the measured one where the samples show any motion at all.
     pub fn start_speed(&self, k: usize) -> f64 {
         if !self.may_start_moving(k) {
@@ -346,6 +359,11 @@ impl Data {
 
 /// Half the number of samples that the speed of a counted angle is taken from.
 const COUNTER_HALF_WIDTH: usize = 4;
+/// Fewest counts that tell a motor in motion from one that starts: the counter's rounding changes the ratio of two such ways by a quarter.
+const SURE_COUNTS: f64 = 8.0;
+/// The way of the first samples as a part of that of the next ones, from which on the motor was in motion before: between a third, of a
+/// constant torque from rest, and one.
+const AS_FAR: f64 = 0.7;
 /// Half the time that the state of an angle with sensor noise is taken from, s: below a motor's mechanical time constant.
 const STATE_HALF_TIME_S: f64 = 0.008;
 

@@ -33,9 +33,9 @@ pub fn problem<'a>(data: &'a Data, options: &Options) -> Result<FitProblem<'a>, 
         None
     };
     let best = match (still, moving) {
-        // A start in motion must earn its unknown.
+        // A start in motion that is not plain to see must earn its unknown; where the model lacks much, none does.
         (Some(still), Some(moving)) => {
-            if moving.cost < EARNED * still.cost {
+            if data.starts_moving(0) || moving.cost < EARNED * still.cost {
                 moving
             } else {
                 still

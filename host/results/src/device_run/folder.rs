@@ -1,7 +1,7 @@
 //! A run as files: recordings that every verb reads, and what the device reported.
 
 use super::live::left_in;
-use super::{DutyScale, FolderError, Recorded};
+use super::{DutyScale, FolderError, Piece, Recorded};
 use crate::schema::DeviceRun;
 use crate::schema::device::FILE as DEVICE;
 use servoid_io::channel::{Measured, Series};
@@ -9,7 +9,7 @@ use servoid_io::input::{Fact, Known, MotorFile, read_recording};
 use servoid_io::output::{write_recording, write_whole};
 use servoid_io::recording::{Drive, Recording};
 use shared::trace::OPEN;
-use shared::wire::{Row, Stage};
+use shared::wire::Stage;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,6 +28,8 @@ pub(super) const RECORDINGS: [(&str, Stage); 5] = [
     ("follow.csv", Stage::Follow),
 ];
 pub(super) const MOTOR: &str = "motor.toml";
+/// Fewest periods of a piece behind a gap that are written: fewer say nothing about a motor.
+const LEAST_PIECE: usize = 100;
 
 impl Folder {
     /// A folder that a run may be written to: new, or empty of runs.
@@ -89,34 +91,43 @@ impl Folder {
         saved: &DeviceRun,
         recorded: &[Recorded],
         current: bool,
-    ) -> Result<Vec<&'static str>, FolderError> {
+    ) -> Result<Vec<String>, FolderError> {
         let mut written = Vec::new();
         for (name, stage) in RECORDINGS {
             let Some(part) = recorded.iter().find(|part| part.stage == stage) else {
                 continue;
             };
-            let whole: Vec<_> = part.whole().collect();
-            if whole.len() < 2 {
-                continue;
+            let pieces = part.pieces();
+            let long = |piece: &&Piece| match piece.first {
+                0 => piece.rows.len() >= 2,
+                _ => piece.rows.len() >= LEAST_PIECE,
+            };
+            for (k, piece) in pieces.iter().filter(long).enumerate() {
+                let name = piece_name(name, k);
+                let mut provenance = vec![format!(
+                    "recorded by servoid device: board {}, firmware {}, {} s a period",
+                    saved.board,
+                    saved.firmware,
+                    f64::from(saved.period_us) * 1e-6
+                )];
+                if piece.rows.len() < part.rows.len() || saved.partial {
+                    let end = piece.first + piece.rows.len();
+                    provenance.push(format!(
+                        "partial: periods {} to {end} of {}, without a gap",
+                        piece.first,
+                        part.rows.len()
+                    ));
+                }
+                let recording = recording(
+                    piece,
+                    saved.period_us,
+                    saved.scale(),
+                    saved.counts_per_rev,
+                    current,
+                );
+                write_recording(&self.path.join(&name), &recording, &provenance)?;
+                written.push(name);
             }
-            let mut provenance = vec![format!(
-                "recorded by servoid device: board {}, firmware {}, {} s a period",
-                saved.board,
-                saved.firmware,
-                f64::from(saved.period_us) * 1e-6
-            )];
-            if whole.len() < part.rows.len() || saved.partial {
-                provenance.push(format!("partial: {} periods without a gap", whole.len()));
-            }
-            let recording = recording(
-                part,
-                saved.period_us,
-                saved.scale(),
-                saved.counts_per_rev,
-                current,
-            );
-            write_recording(&self.path.join(name), &recording, &provenance)?;
-            written.push(name);
         }
         let motor = motor_file(saved.supply_v, saved.counts_per_rev, behind(saved));
         write_whole(&self.path.join(MOTOR), |out| {
@@ -200,20 +211,28 @@ fn behind(saved: &DeviceRun) -> Known {
     }
 }
 
-/// The rows of a stage before the first gap as a recording; the reading after the last period is a row of its own, with no drive.
+/// The name of a stage's piece, of which the first has the stage's own: `verify.csv`, `verify.2.csv`.
+fn piece_name(name: &str, index: usize) -> String {
+    match (index, name.rsplit_once('.')) {
+        (1.., Some((stem, end))) => format!("{stem}.{}.{end}", index + 1),
+        _ => name.to_owned(),
+    }
+}
+
+/// A piece of a stage as a recording; the reading after the last period is a row of its own, with no drive.
 pub fn recording(
-    part: &Recorded,
+    piece: &Piece,
     period_us: u32,
     scale: DutyScale,
     counts_per_rev: f64,
     current: bool,
 ) -> Recording {
-    let rows: Vec<Row> = part.whole().collect();
+    let rows = &piece.rows;
     let period_s = f64::from(period_us) * 1e-6;
     let coasts = rows.iter().any(|row| row.duty == OPEN);
-    let mut at = f64::from(part.count);
+    let mut at = f64::from(piece.count);
     let mut counts = vec![at];
-    for row in &rows {
+    for row in rows {
         at += f64::from(row.step);
         counts.push(at);
     }
@@ -221,7 +240,10 @@ pub fn recording(
     let milliamps = rows.iter().map(|row| row.current_ma).chain([last]);
     Recording {
         source: String::new(),
-        time_s: (0..counts.len()).map(|k| k as f64 * period_s).collect(),
+        time_s: (piece.first..)
+            .map(|k| k as f64 * period_s)
+            .take(counts.len())
+            .collect(),
         command: rows
             .iter()
             .map(|row| scale.recorded(row.duty))
@@ -243,5 +265,51 @@ pub fn recording(
         supply_v: Some(scale.supply_v),
         drive: Drive::Voltage,
         position: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shared::wire::{Row, Rows};
+
+    /// Rows of a shaft that goes on by two counts a period, the message from `first` on.
+    fn message(first: u32, length: u32) -> Rows {
+        let row = Row {
+            duty: 1000,
+            step: 2,
+            current_ma: 0,
+            supply_mv: 0,
+        };
+        Rows {
+            run: 1,
+            stage: Stage::Excite,
+            first,
+            count: 2 * first as i32,
+            rows: (0..length).map(|_| row).collect(),
+        }
+    }
+
+    #[test]
+    fn what_lies_behind_a_gap_is_a_recording_at_its_own_time_and_angle() {
+        let report = include_str!("../../tests/documents/device.json");
+        let saved: DeviceRun = serde_json::from_str(report).expect("a report");
+        let place = tempfile::tempdir().expect("a place");
+        let folder = Folder::new(place.path()).expect("a folder");
+        let mut recorded = Recorded::new(Stage::Excite, 0);
+        // Of 400 periods, 160 to 167 and 200 to 207 are lost; what lies between is too short to say anything.
+        for first in (0..400).step_by(8) {
+            if first != 160 && first != 200 {
+                recorded.take(&message(first, 8));
+            }
+        }
+        let written = folder.write(&saved, &[recorded], false).expect("written");
+        assert_eq!(written, ["recording.csv", "recording.2.csv"]);
+        let motor = MotorFile::read(&folder.path().join(MOTOR)).expect("a motor file");
+        let piece =
+            read_recording(&folder.path().join("recording.2.csv"), &motor).expect("a recording");
+        let period_s = f64::from(saved.period_us) * 1e-6;
+        assert_eq!((piece.len(), piece.counts[0]), (193, 416.0));
+        assert!((piece.time_s[0] - 208.0 * period_s).abs() < 1e-9);
     }
 }

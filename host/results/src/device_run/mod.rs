@@ -20,4 +20,4 @@ pub use error::FolderError;
 pub use folder::{Folder, recording};
 pub use lines::{COLUMNS, Lines};
 pub use live::Live;
-pub use recorded::Recorded;
+pub use recorded::{Piece, Recorded};

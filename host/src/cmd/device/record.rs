@@ -176,7 +176,8 @@ fn into_folder(
             match saved.missing {
                 0 => Ok(()),
                 missing => Err(Error::Failed(format!(
-                    "{missing} periods never arrived: what {} holds ends at the first gap; see to the link and run it again",
+                    "{missing} periods never arrived: each recording in {} ends at its first gap, and what lies behind one is in files of its own; \
+                     see to the link and run it again",
                     path.display()
                 ))),
             }
@@ -221,7 +222,7 @@ fn shown(value: f64) -> String {
     }
 }
 
-fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> String {
+fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[String]) -> String {
     let period_s = f64::from(saved.period_us) * 1e-6;
     let mut text = String::new();
     for part in &run.recorded {
@@ -289,7 +290,7 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[&str]) -> Strin
     );
     if saved.outcome.is_some() {
         text += &format!("next: servoid device verify {}\n", path.display());
-    } else if written.contains(&"recording.csv") {
+    } else if written.iter().any(|name| name == "recording.csv") {
         text += &format!(
             "next: servoid diagnose {}\n",
             path.join("recording.csv").display()
