@@ -170,3 +170,20 @@ fn quiet_leaves_the_result_only() {
         assert!(!outcome.stdout.is_empty(), "{outcome}");
     }
 }
+
+#[test]
+fn a_log_that_begins_in_motion_is_fitted_as_well_as_a_whole_one() {
+    let desk = Desk::new();
+    desk.done("simulate --hide coulomb --out rec.csv");
+    let whole = desk.read("rec.csv");
+    let (heading, rows): (Vec<&str>, Vec<&str>) = whole
+        .lines()
+        .partition(|line| !line.starts_with(|c: char| c.is_ascii_digit()));
+    // In the middle of each experiment the motor turns.
+    for from in [5_057, 8_300, 12_345] {
+        let cut = [&heading[..], &rows[from..]].concat().join("\n");
+        desk.write("cut.csv", cut);
+        let fit = desk.json("fit cut.csv --with coulomb");
+        assert!(number(&fit, "rms_counts") < 0.5, "from row {from}: {fit:#}");
+    }
+}
