@@ -45,5 +45,5 @@ pub use order::{Order, segments};
 pub use port::{Link, Port, serial_ports};
 pub use reached::Reached;
 pub use replay::{Replayed, replay};
-pub use report::{broken, dead_time_s, report};
+pub use report::{broken, report};
 pub use run::{Progress, Run, follow};

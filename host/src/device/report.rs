@@ -197,7 +197,7 @@ fn tuned(tuned: &Tuned, period_s: f64, order: &Order, unit_v: f64) -> device::Tu
 }
 
 /// Dead time of a leg by the part of the supply that two take, s.
-pub fn dead_time_s(fit: &Settings, period_s: f64) -> f64 {
+fn dead_time_s(fit: &Settings, period_s: f64) -> f64 {
     0.5 * period_s / f64::from(fit.carriers)
 }
 

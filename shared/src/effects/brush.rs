@@ -42,7 +42,7 @@ pub struct Spared<S> {
 /// Currents from here on, in knees, lose the whole drop: the tangent lacks 2e-6 of it.
 pub const WHOLE_DROP: f64 = 7.0;
 
-/// Duties that are nearer to 1 than this have no edges: a pause of a 24,000th of a wave is none.
+/// A duty that is nearer to 1 than this has no edges: its pause is shorter than a step of any timer.
 const NO_EDGES: f64 = 1.0 / 24_000.0;
 
 impl<S: Scalar> Brush<S> {

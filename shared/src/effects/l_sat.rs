@@ -53,12 +53,7 @@ impl<S: Scalar> Effect<S> for LSat<S> {
             ..Facts::PLAIN
         },
     };
-    const NEEDS: Needs = Needs {
-        mean: true,
-        current: true,
-        winding: true,
-        ..Needs::NOTHING
-    };
+    const NEEDS: Needs = Needs::VOLTS_BY_CURRENT;
 
     fn lower<R: Real>(values: &[R], units: &PerUnit<R>) -> Self {
         LSat {

@@ -110,6 +110,14 @@ impl Needs {
         temperature: false,
     };
 
+    /// Volts that depend on the current.
+    pub const VOLTS_BY_CURRENT: Needs = Needs {
+        mean: true,
+        current: true,
+        winding: true,
+        ..Needs::NOTHING
+    };
+
     /// What either needs.
     #[inline(always)]
     pub fn or(self, other: Needs) -> Needs {

@@ -193,20 +193,13 @@ pub(super) fn motor_file(supply_v: f64, counts_per_rev: f64, known: Known) -> St
 
 /// What the board says of its bridge.
 fn behind(saved: &DeviceRun) -> Known {
-    if saved.fit.carriers == 0 {
-        return Known::default();
-    }
     let exact = |value| Fact {
         value,
         tolerance: None,
     };
-    let carrier_hz = f64::from(saved.fit.carriers) / (f64::from(saved.period_us) * 1e-6);
-    let lost = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
     Known {
-        carrier_hz: Some(exact(carrier_hz)),
-        dead_time_s: Some(0.5 * lost / carrier_hz)
-            .filter(|told| *told > 0.0)
-            .map(exact),
+        carrier_hz: saved.carrier_hz().map(exact),
+        dead_time_s: saved.told_dead_time_s().map(exact),
         ..Known::default()
     }
 }
@@ -271,24 +264,7 @@ pub fn recording(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shared::wire::{Row, Rows};
-
-    /// Rows of a shaft that goes on by two counts a period, the message from `first` on.
-    fn message(first: u32, length: u32) -> Rows {
-        let row = Row {
-            duty: 1000,
-            step: 2,
-            current_ma: 0,
-            supply_mv: 0,
-        };
-        Rows {
-            run: 1,
-            stage: Stage::Excite,
-            first,
-            count: 2 * first as i32,
-            rows: (0..length).map(|_| row).collect(),
-        }
-    }
+    use crate::device_run::recorded::message;
 
     #[test]
     fn what_lies_behind_a_gap_is_a_recording_at_its_own_time_and_angle() {
@@ -300,7 +276,8 @@ mod tests {
         // Of 400 periods, 160 to 167 and 200 to 207 are lost; what lies between is too short to say anything.
         for first in (0..400).step_by(8) {
             if first != 160 && first != 200 {
-                recorded.take(&message(first, 8));
+                // A shaft that goes on by two counts a period.
+                recorded.take(&message(first, 2 * first as i32, &[2; 8]));
             }
         }
         let written = folder.write(&saved, &[recorded], false).expect("written");

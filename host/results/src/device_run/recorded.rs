@@ -83,15 +83,11 @@ impl Recorded {
             self.count = rows.count;
         }
         self.readings.entry(first).or_insert(rows.count);
-        self.fill(rows);
+        self.take_again(rows);
     }
 
     /// Puts rows that were requested again into their places: the device no longer knows where the shaft stood.
     pub fn take_again(&mut self, rows: &Rows) {
-        self.fill(rows);
-    }
-
-    fn fill(&mut self, rows: &Rows) {
         let first = rows.first as usize;
         let end = first + rows.rows.len();
         if self.rows.len() < end {
@@ -103,25 +99,27 @@ impl Recorded {
     }
 }
 
+/// A message of the periods from `first` on, of a shaft that begins at `count` and goes on by `steps`.
+#[cfg(test)]
+pub(super) fn message(first: u32, count: i32, steps: &[i16]) -> Rows {
+    let row = |&step| Row {
+        duty: 7,
+        step,
+        current_ma: 0,
+        supply_mv: 0,
+    };
+    Rows {
+        run: 1,
+        stage: Stage::Excite,
+        first,
+        count,
+        rows: steps.iter().map(row).collect(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn message(first: u32, count: i32, steps: &[i16]) -> Rows {
-        let row = |&step| Row {
-            duty: 7,
-            step,
-            current_ma: 0,
-            supply_mv: 0,
-        };
-        Rows {
-            run: 1,
-            stage: Stage::Excite,
-            first,
-            count,
-            rows: steps.iter().map(row).collect(),
-        }
-    }
 
     #[test]
     fn pieces_keep_their_place_and_their_reading() {

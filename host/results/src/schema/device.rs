@@ -286,6 +286,19 @@ pub struct ReportError {
 }
 
 impl DeviceRun {
+    /// Frequency of the bridge's carrier, Hz, where the fit is of what its dead time takes.
+    pub fn carrier_hz(&self) -> Option<f64> {
+        let period_s = f64::from(self.period_us) * 1e-6;
+        (self.fit.carriers > 0).then(|| f64::from(self.fit.carriers) / period_s)
+    }
+
+    /// Dead time that the bridge's timer was told, s, where the board knows it.
+    pub fn told_dead_time_s(&self) -> Option<f64> {
+        let lost = f64::from(self.fit.dead_time) / f64::from(self.full_duty);
+        let told = self.carrier_hz().map(|carrier| 0.5 * lost / carrier);
+        told.filter(|told| *told > 0.0)
+    }
+
     /// Reads the report of the run in `folder`.
     ///
     /// # Errors

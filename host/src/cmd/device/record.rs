@@ -6,8 +6,7 @@ use crate::cli::{
     Switch,
 };
 use crate::device::{
-    Aim, Conversation, Course, Kept, Order, Progress, Reached, Run, dead_time_s, drive, keep,
-    segments,
+    Aim, Conversation, Course, Kept, Order, Progress, Reached, Run, drive, keep, segments,
 };
 use crate::error::Error;
 use crate::session::{Session, print};
@@ -274,12 +273,8 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[String]) -> Str
         }
         text += &verdict(saved);
         text += &saved.tuned.as_ref().map_or(String::new(), tuned);
-        if saved.fit.dead_time > 0 {
-            let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
-            text += &format!(
-                "  the board's timer was told a dead time of {:.2e} s\n",
-                told * dead_time_s(&saved.fit, period_s)
-            );
+        if let Some(told) = saved.told_dead_time_s() {
+            text += &format!("  the board's timer was told a dead time of {told:.2e} s\n");
         }
     }
     text += &saved.followed.as_ref().map_or(String::new(), followed);

@@ -6,13 +6,14 @@
 
 use super::super::progress::Watched;
 use crate::cli::VerifyArgs;
-use crate::device::{Replayed, dead_time_s, replay};
+use crate::device::{Replayed, replay};
 use crate::error::Error;
 use crate::session::Session;
 use servoid_engine::problem::Data;
 use servoid_engine::simulation::Candidate;
 use servoid_identify::diagnose::{self, Budget};
 use servoid_identify::fit::Options;
+use servoid_identify::fit::bridge::dead_time_s;
 use servoid_identify::{Datasets, diagnose_datasets, identify_data};
 use servoid_io::input::{MotorFile, read_recording};
 use servoid_results::device_run::{Folder, FolderError};
@@ -171,8 +172,6 @@ fn stronger(
 
 /// The bridge's dead time by both fits and by the board.
 fn dead_time(saved: &DeviceRun, outcome: &Outcome, found: &Candidate) -> DeadTime {
-    let whole_s = dead_time_s(&saved.fit, f64::from(saved.period_us) * 1e-6);
-    let told = f64::from(saved.fit.dead_time) / f64::from(saved.full_duty);
     let own = found
         .effects
         .iter()
@@ -180,8 +179,10 @@ fn dead_time(saved: &DeviceRun, outcome: &Outcome, found: &Candidate) -> DeadTim
     let lost = own.and_then(|(_, values)| values.first().copied());
     DeadTime {
         device_s: outcome.value("dead_time").and_then(finite),
-        host_s: lost.and_then(|volts| finite(volts / saved.supply_v * whole_s)),
-        told_s: Some(told * whole_s).filter(|told| *told > 0.0),
+        host_s: lost
+            .zip(saved.carrier_hz())
+            .and_then(|(volts, carrier)| finite(dead_time_s(volts, saved.supply_v, carrier))),
+        told_s: saved.told_dead_time_s(),
     }
 }
 
