@@ -1,7 +1,8 @@
 //! One candidate along the trace, so many samples at a time.
 
+use super::Arithmetic;
 use super::arithmetic::Sliding;
-use super::{Arithmetic, Point, Space};
+use super::motor::Motor;
 use crate::model::{Motion, Rigid};
 use crate::scalar::Angle;
 use crate::trace::{OPEN, Trace};
@@ -93,17 +94,12 @@ impl<S: Arithmetic> Room<S> {
 /// Room for as many models as ever run side by side.
 pub(super) type Runs<S> = [Room<S>; 3];
 
-/// Puts the motor at `x` into `room`; says whether there is one. In place: to hand a model on costs as much as to make it.
+/// Puts `motor` into `room`; says whether there is one. In place: to hand a model on costs as much as to make it.
 // Out of line, so that what it needs of the stack is free again when the model runs.
 #[inline(never)]
-pub(super) fn build<S: Arithmetic>(
-    room: &mut Room<S>,
-    space: &Space,
-    x: &Point,
-    bound: f32,
-) -> bool {
+pub(super) fn build<S: Arithmetic>(room: &mut Room<S>, motor: &Motor, bound: f32) -> bool {
     let run = &mut room.run;
-    room.taken = space.set(&mut run.model, x) && run.begin(bound);
+    room.taken = motor.set(&mut run.model) && run.begin(bound);
     room.taken
 }
 

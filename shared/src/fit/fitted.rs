@@ -3,7 +3,7 @@
 use super::evaluation::build;
 use super::prediction::Prediction;
 use super::stage::Stage;
-use super::{Arithmetic, Fit, Predicted, Unknown, Verdict};
+use super::{Arithmetic, Fit, Predicted, Predictors, Unknown, Verdict};
 use crate::servo::Gains;
 
 impl<S: Arithmetic> Fit<S> {
@@ -12,22 +12,29 @@ impl<S: Arithmetic> Fit<S> {
         self.now.space.unknowns()
     }
 
+    /// What predicts after the fit of the `fitted` periods.
+    // Out of line, for the sake of the stack.
+    #[inline(never)]
+    pub fn predictors(&self, fitted: usize) -> Predictors {
+        let now = &self.now;
+        Predictors::of(&now.space, &now.best, &now.covariance, now.least, fitted)
+    }
+
     /// Gets the best motor ready to predict about so many periods, judged over windows of `window` periods; the fit of the `fitted` periods is
     /// over. Returns false if no motor was fitted.
     pub fn predict(&mut self, fitted: usize, periods: u32, window: u32) -> bool {
+        let predictors = self.predictors(fitted);
+        self.predict_by(&predictors, periods, window)
+    }
+
+    /// The same by motors of an earlier fit. Ends a fit under way.
+    pub fn predict_by(&mut self, predictors: &Predictors, periods: u32, window: u32) -> bool {
         self.asked = false;
         self.stage = Stage::Predict(Prediction::EMPTY);
         let Stage::Predict(prediction) = &mut self.stage else {
             return false;
         };
-        prediction.begin(
-            &mut self.runs,
-            &self.now.space,
-            &self.now.best,
-            &self.now.covariance,
-            (self.now.least, fitted),
-            (periods, window),
-        )
+        prediction.begin(&mut self.runs, predictors, periods, window)
     }
 
     /// One period of what the motor predicts: the duty acted, and the reading is `step` counts further. The models run along it in
@@ -51,29 +58,22 @@ impl<S: Arithmetic> Fit<S> {
     #[inline(never)]
     pub fn predicted(&mut self) -> Option<Predicted> {
         match &self.stage {
-            Stage::Predict(prediction) => {
-                Some(prediction.so_far(&mut self.runs, &self.now.space, &self.now.best))
-            }
+            Stage::Predict(prediction) => Some(prediction.so_far(&mut self.runs)),
             _ => None,
         }
     }
 
     /// Gains by the fitted motor, whose gain over time constant may be off by the part `off`.
     pub fn gains(&self, off: f32) -> Gains {
-        let mut values = [0.0; 3];
-        for (k, value) in values.iter_mut().enumerate() {
-            *value = self.now.space.value(k, &self.now.best);
-        }
-        let [gain, first_order, electrical] = values;
-        let coulomb = (self.unknowns().iter()).position(|own| *own == Unknown::Coulomb);
-        let friction = coulomb.map_or(0.0, |k| self.now.space.value(k, &self.now.best));
-        Gains::of(gain, [first_order, electrical], friction, off)
+        let motor = self.now.space.motor(&self.now.best);
+        let time_constants = [motor.first_order, motor.electrical];
+        Gains::of(motor.gain, time_constants, motor.coulomb, off)
     }
 
     /// Puts the fitted motor to rest, to be [`moved`](Self::moved). Returns false if no motor was fitted.
     pub fn rest(&mut self) -> bool {
-        let (space, best) = (&self.now.space, &self.now.best);
-        build(&mut self.runs[0], space, best, f32::INFINITY)
+        let motor = self.now.space.motor(&self.now.best);
+        build(&mut self.runs[0], &motor, f32::INFINITY)
     }
 
     /// Moves the fitted motor for a period; gives its angle then, counts from where it rested.

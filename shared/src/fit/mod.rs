@@ -8,7 +8,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `settings` | what to search for, and how |
-//! | `space` | the unknowns and their ranges |
+//! | `space`, `motor` | the unknowns and their ranges; a motor by their values |
 //! | `slices`, `stage` | the fit: up to three searches, each with its polish; what shares memory |
 //! | `evaluation`, `arithmetic` | a motor along a trace, in a number format |
 //! | `polish`, `differences`, `cholesky` | Levenberg and Marquardt's method |
@@ -27,6 +27,7 @@ mod covariance;
 mod differences;
 mod evaluation;
 mod fitted;
+mod motor;
 mod outcome;
 mod polish;
 mod prediction;
@@ -38,8 +39,9 @@ mod verdict;
 
 pub use arithmetic::Arithmetic;
 pub use evaluation::Evaluation;
+pub use motor::Motor;
 pub use outcome::{Estimate, Outcome, Stop};
-pub use prediction::Predicted;
+pub use prediction::{Predicted, Predictors};
 pub use settings::{Method, POPULATION, Settings};
 pub use slices::{Fit, SEARCHES};
 pub use space::{MOST, Point, Space, Unknown};

@@ -148,7 +148,7 @@ impl Polish {
                 let points = [self.centre, self.displaced(a).0, self.displaced(b).0];
                 let mut built = true;
                 for (k, x) in points.iter().enumerate() {
-                    built &= build(&mut runs[k], space, x, f32::INFINITY);
+                    built &= build(&mut runs[k], &space.motor(x), f32::INFINITY);
                 }
                 self.differences.begin(trace.len());
                 self.work = if built { Work::Run(a, b) } else { Work::Done };
@@ -166,7 +166,7 @@ impl Polish {
             Work::Build => {
                 let (trial, bound) = (self.trial, self.cost);
                 self.work = Work::Try;
-                if !build(&mut runs[0], space, &trial, bound) {
+                if !build(&mut runs[0], &space.motor(&trial), bound) {
                     self.judge(space, f32::INFINITY);
                 }
                 BUILD

@@ -6,6 +6,7 @@
 use super::covariance::Covariance;
 use super::differences::Differences;
 use super::evaluation::{Runs, build};
+use super::motor::Motor;
 use super::{Arithmetic, MOST, Point, Space};
 use crate::scalar::Real;
 use heapless::Deque;
@@ -19,12 +20,22 @@ pub struct Predicted {
     pub mean_square: f32,
     /// Over so many periods.
     pub periods: u32,
-    /// RMS of the error that grows in 50 ms, as a part of that of one who takes it that the speed stays; not a number where none could be seen.
+    /// RMS of the error that grows in a window, mostly of 50 ms, as a part of that of one who takes it that the speed stays; not a number where none could be seen.
     pub by_persistence: f32,
     /// By which part the gain would differ by this recording.
     pub gain: f32,
     /// By which part the time constant would.
     pub time_constant: f32,
+}
+
+/// Largest error over a window as a part of that of one who takes it that the speed stays, of a motor that predicts.
+const MOST_BY_PERSISTENCE: f32 = 0.5;
+
+impl Predicted {
+    /// Whether it predicts much better than one who takes it that the speed stays.
+    pub fn beats_persistence(&self) -> bool {
+        self.by_persistence <= MOST_BY_PERSISTENCE
+    }
 }
 
 /// A displacement moves the reading by about this, counts RMS …
@@ -38,6 +49,63 @@ const LONGEST: f32 = 0.003;
 /// room for in what the search needs.
 const WAITING: usize = 256;
 
+/// What predicts: a fitted motor and the two displaced ones. All that a device keeps of a fit to tell later whether its motor is still that one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Predictors {
+    motors: [Motor; 3],
+    /// What each displacement adds to the logarithms of gain and time constant.
+    adds: [[f32; 2]; 2],
+}
+
+impl Predictors {
+    /// Of nothing: all zeros.
+    pub const NONE: Self = Predictors {
+        motors: [Motor::NONE; 3],
+        adds: [[0.0; 2]; 2],
+    };
+
+    /// Of the motor at `best`, which left `least` counts² of its recording of `fitted` periods.
+    pub(super) fn of(
+        space: &Space,
+        best: &Point,
+        covariance: &Covariance,
+        least: f32,
+        fitted: usize,
+    ) -> Self {
+        let mut predictors = Predictors {
+            motors: [space.motor(best); 3],
+            adds: [[0.0; 2]; 2],
+        };
+        for (k, adds) in predictors.adds.iter_mut().enumerate() {
+            // The fit's standard deviation of the coordinate is the move that adds σ² to the sum of squares.
+            let mut axis = [0.0; MOST];
+            axis[k] = 1.0;
+            let std = covariance.curvature_std(&axis);
+            let seen = Real::sqrt(least / fitted.max(1) as f32);
+            let visible = VISIBLE.max(ROUGH * Real::sqrt(least));
+            let moved = if seen > 0.0 {
+                std * visible / seen
+            } else {
+                LONGEST
+            }
+            .min(LONGEST);
+            let along = covariance.along(k);
+            let mut x = *best;
+            for (j, (x, by)) in x.iter_mut().zip(along).enumerate() {
+                *x += moved * by;
+                if j > 1 {
+                    *x = x.clamp(0.0, 1.0);
+                }
+            }
+            predictors.motors[k + 1] = space.motor(&x);
+            for (of, add) in adds.iter_mut().enumerate() {
+                *add = space.gradient(of, best)[k] * moved / space.value(of, best);
+            }
+        }
+        predictors
+    }
+}
+
 /// A prediction under way.
 #[derive(Clone, Debug)]
 pub(super) struct Prediction {
@@ -48,8 +116,8 @@ pub(super) struct Prediction {
     /// There was no room for a period: it and those after it are not predicted.
     ended: bool,
     errors: [f32; 3],
-    /// By how much the two are displaced.
-    moved: [f32; 2],
+    /// See [`Predictors`].
+    adds: [[f32; 2]; 2],
     window: Window,
 }
 
@@ -103,22 +171,19 @@ impl Prediction {
         turn: 0,
         ended: false,
         errors: [0.0; 3],
-        moved: [0.0; 2],
+        adds: [[0.0; 2]; 2],
         window: Window::EMPTY,
     };
 
-    /// Begins a prediction of about so many periods by the motor at `best`, which left `least` counts² of its recording of `periods`. Says
-    /// whether there is such a motor.
+    /// Begins a prediction of about so many periods, judged over windows of `window`. Says whether there are such motors.
     // Out of line, for the sake of the stack.
     #[inline(never)]
     pub(super) fn begin<S: Arithmetic>(
         &mut self,
         runs: &mut Runs<S>,
-        space: &Space,
-        best: &Point,
-        covariance: &Covariance,
-        (least, fitted): (f32, usize),
-        (periods, window): (u32, u32),
+        predictors: &Predictors,
+        periods: u32,
+        window: u32,
     ) -> bool {
         self.differences.begin(periods as usize);
         self.window = Window {
@@ -126,29 +191,10 @@ impl Prediction {
             left: window.max(1),
             ..Window::EMPTY
         };
-        let mut built = build(&mut runs[0], space, best, f32::INFINITY);
-        for (k, moved) in self.moved.iter_mut().enumerate() {
-            // The fit's standard deviation of the coordinate is the move that adds σ² to the sum of squares.
-            let mut axis = [0.0; MOST];
-            axis[k] = 1.0;
-            let std = covariance.curvature_std(&axis);
-            let seen = Real::sqrt(least / fitted.max(1) as f32);
-            let visible = VISIBLE.max(ROUGH * Real::sqrt(least));
-            *moved = if seen > 0.0 {
-                std * visible / seen
-            } else {
-                LONGEST
-            }
-            .min(LONGEST);
-            let along = covariance.along(k);
-            let mut x = *best;
-            for (j, (x, by)) in x.iter_mut().zip(along).enumerate() {
-                *x += *moved * by;
-                if j > 1 {
-                    *x = x.clamp(0.0, 1.0);
-                }
-            }
-            built &= build(&mut runs[k + 1], space, &x, f32::INFINITY);
+        self.adds = predictors.adds;
+        let mut built = true;
+        for (run, motor) in runs.iter_mut().zip(&predictors.motors) {
+            built &= build(run, motor, f32::INFINITY);
         }
         built
     }
@@ -192,26 +238,19 @@ impl Prediction {
     }
 
     /// How well it predicted so far.
-    pub(super) fn so_far<S: Arithmetic>(
-        &self,
-        runs: &mut Runs<S>,
-        space: &Space,
-        best: &Point,
-    ) -> Predicted {
+    pub(super) fn so_far<S: Arithmetic>(&self, runs: &mut Runs<S>) -> Predicted {
         let periods = self.differences.at as u32;
         let mut differences = self.differences;
         let products = differences.products();
         let ([ea, eb], [aa, ab, bb]) = (products.slopes, products.squares);
         let determinant = aa * bb - ab * ab;
+        // In displacements.
         let moves = [
-            -(bb * ea - ab * eb) / determinant * self.moved[0],
-            -(aa * eb - ab * ea) / determinant * self.moved[1],
+            -(bb * ea - ab * eb) / determinant,
+            -(aa * eb - ab * ea) / determinant,
         ];
-        // Of the logarithms.
-        let by = |k: usize| {
-            let gradient = space.gradient(k, best);
-            (gradient[0] * moves[0] + gradient[1] * moves[1]) / space.value(k, best)
-        };
+        let [a, b] = self.adds;
+        let by = |k: usize| a[k] * moves[0] + b[k] * moves[1];
         let [by_model, by_persistence] = self.window.sums;
         Predicted {
             mean_square: runs[0]

@@ -233,7 +233,7 @@ impl<S: Arithmetic> Fit<S> {
             return;
         };
         let (x, bound) = (self.now.space.of_search(search.ask()), search.bound());
-        self.asked = build(&mut self.runs[0], &self.now.space, &x, bound);
+        self.asked = build(&mut self.runs[0], &self.now.space.motor(&x), bound);
         if !self.asked {
             self.end(f32::INFINITY);
         }

@@ -4,12 +4,10 @@
 //! shows that well and either of the two badly, so gain itself would lie along a narrow slanted valley (a swarm of 20 missed
 //! 8 % of drawn motors with it, 3 % without).
 
-use super::{Arithmetic, Settings};
-use crate::model::{Rigid, RigidPlan};
-use crate::motor::Response;
+use super::Settings;
+use super::motor::Motor;
 use crate::scalar::Real;
 use crate::trace::Trace;
-use crate::units::PerUnit;
 
 /// Most unknowns.
 pub const MOST: usize = 8;
@@ -70,8 +68,6 @@ const ABRUPT: f32 = 2.0;
 const SHORTEST: f32 = 0.5;
 /// Electrical time constants, periods.
 const ELECTRICAL: [f32; 2] = [0.02, 50.0];
-/// A winding slower than this many mechanical time constants is no motor's.
-const SLOWEST_WINDING: f32 = 4.0;
 /// Places among the coordinates: the logarithms, before all others.
 const GAIN: usize = 0;
 const FIRST_ORDER: usize = 1;
@@ -231,57 +227,28 @@ impl Space {
         gradient
     }
 
-    /// Makes `model` the motor at `x`; says whether there is one: none with a coefficient beyond the range of `S`, or an
-    /// electrical time constant far above the mechanical one.
+    /// The motor at `x`.
     // Out of line, as `build`, and for the sake of short instructions, which reach the first kilobyte of a stack.
     #[inline(never)]
-    pub fn set<S: Arithmetic>(&self, model: &mut Rigid<S>, x: &Point) -> bool {
-        let (mut gain, mut first_order, mut electrical) = (1.0, 1.0, 0.0);
-        let (mut coulomb, mut load) = (0.0, 0.0);
-        let (mut dead_time, mut viscous, mut supply) = (0.0, 0.0, 0.0);
+    pub fn motor(&self, x: &Point) -> Motor {
+        let mut motor = Motor {
+            carriers: self.carriers,
+            full: self.full,
+            ..Motor::NONE
+        };
         for (k, unknown) in self.unknowns().iter().enumerate() {
             let slot = match unknown {
-                Unknown::Gain => &mut gain,
-                Unknown::FirstOrder => &mut first_order,
-                Unknown::Electrical => &mut electrical,
-                Unknown::Coulomb => &mut coulomb,
-                Unknown::Load => &mut load,
-                Unknown::DeadTime => &mut dead_time,
-                Unknown::Viscous => &mut viscous,
-                Unknown::Supply => &mut supply,
+                Unknown::Gain => &mut motor.gain,
+                Unknown::FirstOrder => &mut motor.first_order,
+                Unknown::Electrical => &mut motor.electrical,
+                Unknown::Coulomb => &mut motor.coulomb,
+                Unknown::Load => &mut motor.load,
+                Unknown::DeadTime => &mut motor.dead_time,
+                Unknown::Viscous => &mut motor.viscous,
+                Unknown::Supply => &mut motor.supply,
             };
             *slot = self.value(k, x);
         }
-        // Beyond the second there is no machine with this response.
-        if electrical > SLOWEST_WINDING * first_order || 4.0 * viscous * electrical > first_order {
-            return false;
-        }
-        // A count is the unit of angle, a period that of time, the supply that of voltage: SI in all but name.
-        let response = Response {
-            gain,
-            a1: first_order,
-            a2: first_order * electrical,
-        };
-        let plan = RigidPlan {
-            machine: response.machine_with_damping(viscous / gain),
-            coulomb,
-            load,
-            dead_time,
-            carriers: self.carriers,
-            full: self.full,
-            supply,
-            units: PerUnit {
-                volts: 1.0,
-                speed: power_of_two_above(gain),
-                interval: 1.0,
-                counts_per_rev: core::f32::consts::TAU,
-            },
-        };
-        S::set(model, &plan)
+        motor
     }
-}
-
-/// The power of two next above a positive number: dividing by it loses no bits.
-fn power_of_two_above(x: f32) -> f32 {
-    f32::from_bits((x.to_bits() & 0x7f80_0000) + 0x0080_0000)
 }

@@ -54,9 +54,6 @@ const MOST_OFF: [f32; 3] = [0.05, 0.1, 0.1];
 const WITHIN: f32 = 2.23;
 /// What no fit tells: magnets and a winding that warm by 5 K are off by one percent and two, and a carrier takes a duty over within 50 µs.
 const OTHERWISE: [f32; 3] = [0.01, 0.02, 0.02];
-/// Largest error over 50 ms as a part of that of one who takes it that the speed stays.
-const MOST_BY_PERSISTENCE: f32 = 0.5;
-
 impl Verdict {
     /// Of the standard deviations of gain, time constant and their ratio, as parts of them; of the mean square that the fit left; and of how
     /// well it predicted, with the largest error that is an encoder's, counts RMS.
@@ -87,7 +84,7 @@ impl Verdict {
             }
         } else if least <= encoder && predicted.mean_square <= encoder {
             Reason::None
-        } else if predicted.by_persistence <= MOST_BY_PERSISTENCE {
+        } else if predicted.beats_persistence() {
             Reason::Left
         } else {
             Reason::Predicts
