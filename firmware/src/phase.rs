@@ -1,8 +1,8 @@
 //! The phases of a self-identification, and the one rule that leads from each to the next.
 //!
 //! ```text
-//! Idle → Probe → Excite → Record → Fit → Verify → Simulate → Tune → Follow → Report → Idle
-//!          └────────┴────────┴──────┴───────┴────────┴────────┴───────┴───────↗  any fault, at any time
+//! Idle → Probe → Excite → Record → Fit → Verify → Simulate → Tune → Keep → Follow → Report → Idle
+//!          └────────┴────────┴──────┴───────┴────────┴────────┴───────┴──────┴───────↗  any fault, at any time
 //! ```
 //!
 //! The rule is two pure functions, [`Phase::after`] an event and [`Phase::failed`] by a fault, and whether the bridge may
@@ -34,6 +34,8 @@ pub enum Phase {
     Simulate,
     /// Drives that step in a closed loop.
     Tune,
+    /// Saves the servo where it outlives a power cut; the bridge is open and the motor coasts.
+    Keep,
     /// Follows set-points in a closed loop.
     Follow,
     /// Repeats the report until the host acknowledges it; the bridge is open.
@@ -73,7 +75,8 @@ impl Phase {
             (Phase::Fit, Event::Done) => Ok(Phase::Verify),
             (Phase::Verify, Event::Done) => Ok(Phase::Simulate),
             (Phase::Simulate, Event::Done) => Ok(Phase::Tune),
-            (Phase::Tune, Event::Done) => Ok(Phase::Follow),
+            (Phase::Tune, Event::Done) => Ok(Phase::Keep),
+            (Phase::Keep, Event::Done) => Ok(Phase::Follow),
             (Phase::Follow, Event::Done) => Ok(Phase::Report(Ok(()))),
             (Phase::Report(_), Event::Done) => Ok(Phase::Idle),
             (phase, event) => Err(Refused { phase, event }),
@@ -100,7 +103,9 @@ impl Phase {
             | Phase::Verify
             | Phase::Tune
             | Phase::Follow => Bridge::Driven,
-            Phase::Idle | Phase::Fit | Phase::Simulate | Phase::Report(_) => Bridge::Open,
+            Phase::Idle | Phase::Fit | Phase::Simulate | Phase::Keep | Phase::Report(_) => {
+                Bridge::Open
+            }
         }
     }
 }
@@ -127,6 +132,7 @@ impl Phase {
             Phase::Verify => Stage::Verify,
             Phase::Simulate => Stage::Simulate,
             Phase::Tune => Stage::Tune,
+            Phase::Keep => Stage::Keep,
             Phase::Follow => Stage::Follow,
             Phase::Report(_) => Stage::Report,
         }
@@ -212,6 +218,7 @@ mod tests {
                 Verify,
                 Simulate,
                 Tune,
+                Keep,
                 Follow,
                 Report(Ok(())),
                 Idle

@@ -24,6 +24,7 @@ fn a_step_is_answered_as_it_was_predicted() {
             step,
             predicted,
             measured,
+            ..
         }) = report.tuned
         else {
             println!("seed {seed}: {grade:?} no step");

@@ -96,6 +96,7 @@ fn report() -> Report {
                 settling: 150,
                 left: 0.5,
             }),
+            kept: true,
         }),
     }
 }
@@ -202,6 +203,8 @@ fn to_host() -> Vec<ToHost> {
             carriers: 20,
             dead_time: 273,
             encoder_latency_us: 255,
+            servo: ServoState::Untried,
+            keeps_servo: true,
         }),
     ]
 }

@@ -28,7 +28,11 @@ struct Device {
 
 impl Device {
     fn with(hide: &[&str]) -> Self {
-        let machine = Machine::gearmotor();
+        Device::of(Machine::gearmotor(), hide, None)
+    }
+
+    /// With a file that outlives it, as a flash.
+    fn of(machine: Machine, hide: &[&str], flash: Option<&Path>) -> Self {
         let mut bench = Bench::new(machine);
         bench.effects = hide
             .iter()
@@ -43,6 +47,10 @@ impl Device {
         let end = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&end);
         let board = Pc::start(&free.to_string(), &plant.to_string()).unwrap();
+        let board = match flash {
+            Some(file) => board.with_flash(file.to_owned()),
+            None => board,
+        };
         let thread = thread::spawn(move || {
             let mut memory = Box::new(Memory::<f32>::new());
             let mut recording = Box::new(Recording::<2000>::new());
@@ -193,6 +201,57 @@ fn a_motor_makes_a_servo_of_itself_and_its_gains_go_where_they_are_good() {
     assert_eq!(error, None);
     let head = written.unwrap()["text"].to_string();
     assert!(head.contains("NOT VERIFIED: too coarse"), "{head}");
+}
+
+#[test]
+fn a_servo_outlives_a_power_cut_and_another_motor_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let flash = folder.path().join("flash");
+    let info = |device: &Device| {
+        let json = folder.path().join("info.json");
+        let (about, error) = servoid(&["device", "info", "--port", &device.port], &json);
+        assert_eq!(error, None);
+        about.unwrap()["servo"].clone()
+    };
+    let device = Device::of(Machine::gearmotor(), &[], Some(&flash));
+    assert_eq!(info(&device), "none");
+    let (saved, error) = identify(
+        "tune",
+        &device,
+        &folder.path().join("servo"),
+        &["--excite", "0"],
+    );
+    assert_eq!(error, None);
+    assert_eq!(saved.unwrap()["tuned"]["kept"], true);
+    drop(device);
+    let again = Device::of(Machine::gearmotor(), &[], Some(&flash));
+    assert_eq!(info(&again), "untried");
+    let follow = |device: &Device, name: &str| {
+        let out = folder.path().join(name);
+        identify("follow", device, &out, &["--angle", "3", "--for", "1"])
+    };
+    let (followed, error) = follow(&again, "again");
+    assert_eq!(error, None);
+    let followed = followed.unwrap();
+    let reached = followed["followed"]["reached"].as_f64().unwrap();
+    assert!((reached - 3.0).abs() < 0.02, "{reached}");
+    let changed = followed["predicted"]["gain_moved"].as_f64().unwrap();
+    assert!(changed.abs() < 0.02, "{changed}");
+    assert_eq!(info(&again), "tried");
+    drop(again);
+    let mut heavier = Machine::gearmotor();
+    heavier.inertia_kg_m2 *= 3.0;
+    let other = Device::of(heavier, &[], Some(&flash));
+    let (_, error) = follow(&other, "other");
+    let error = error.expect("another motor");
+    assert!(
+        error.contains("not the one whose servo was kept") && error.contains("percent"),
+        "{error}"
+    );
+    // A flash that holds something else holds no servo.
+    fs::write(&flash, [1, 2, 3]).unwrap();
+    let (_, error) = follow(&Device::of(Machine::gearmotor(), &[], Some(&flash)), "nothing");
+    assert!(error.expect("no servo").contains("servoid device tune"));
 }
 
 #[test]

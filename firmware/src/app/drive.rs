@@ -26,6 +26,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     pub(super) fn length(&self, phase: Phase, job: &Job) -> u32 {
         match (phase, job.kind) {
             (Phase::Follow, Kind::Follow) => u32::MAX,
+            (Phase::Verify, Kind::Follow) if self.is_to_be_tried(job) => job.verify,
             (_, Kind::Follow) | (Phase::Probe, Kind::Play) => 0,
             (Phase::Probe, _) => Script::GROWING_STEPS * Self::periods(PROBE_STEP_US),
             (Phase::Excite, Kind::Play) => u32::MAX,
@@ -267,7 +268,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
     }
 
     pub(super) fn verified(&mut self, job: &Job) {
+        let tried = self.is_to_be_tried(job);
         let fit = &mut self.memory.fit;
+        if tried && let Some(predicted) = fit.predicted() {
+            self.report.verified = Some(predicted);
+            return self.tried(&predicted);
+        }
         // A motor that cannot even predict is good for nothing.
         let (mut grade, mut mean_square) = (Grade::No, 0.0);
         if self.predicts

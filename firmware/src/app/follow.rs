@@ -2,10 +2,10 @@
 
 use super::App;
 use super::closed_loop::{OF_LIMITS, as_duty, as_part};
+use super::keep::KeptServo;
 use crate::board::Board;
-use crate::guard::Learned;
 use shared::fit::Arithmetic;
-use shared::servo::{Gains, Servo, Target};
+use shared::servo::{Servo, Target};
 use shared::wire::{Job, SetPoint};
 
 /// A shaft that has not moved for this long, after the last set-point, rests.
@@ -15,25 +15,6 @@ const LONGEST_US: u32 = 500_000;
 /// What is left to the limit of travel, a part of it.
 const MARGIN: u32 = 16;
 
-/// What was tuned, if anything was: gains, the largest duty that they were tuned for, and what the guards have learned of the motor.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Kept {
-    pub(super) is_tuned: bool,
-    pub(super) gains: Gains,
-    pub(super) amplitude: i16,
-    pub(super) learned: Learned,
-}
-
-impl Kept {
-    /// Nothing: all zeros.
-    pub(super) const NOTHING: Self = Kept {
-        is_tuned: false,
-        gains: Gains::NONE,
-        amplitude: 0,
-        learned: Learned::NOTHING,
-    };
-}
-
 /// A servo on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Following {
@@ -41,6 +22,8 @@ pub(super) struct Following {
     target: Target,
     /// Largest position, counts; none if zero.
     travel: u32,
+    /// Counts from where the servo began to where the run did, which is not where a motor ends that was tried before.
+    home: Option<i32>,
     /// It is to stop: periods since, and periods at rest.
     stops: Option<(u32, u32)>,
 }
@@ -51,12 +34,13 @@ impl Following {
         servo: Servo::IDLE,
         target: Target::Position(0),
         travel: 0,
+        home: None,
         stops: None,
     };
 
     /// At rest where it is.
     #[inline(never)]
-    pub(super) fn begin(&mut self, kept: &Kept, job: &Job) {
+    pub(super) fn begin(&mut self, kept: &KeptServo, job: &Job) {
         *self = Self::NONE;
         self.travel = job.limits.travel;
         let limit = as_part(kept.amplitude.min(job.limits.duty));
@@ -101,6 +85,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                 return None;
             }
         }
-        Some(as_duty(following.servo.next(step, following.target)))
+        let begun = self.count.wrapping_sub(step);
+        let home = *(following.home).get_or_insert(self.home.wrapping_sub(begun));
+        let target = match following.target {
+            Target::Position(counts) => Target::Position(counts.saturating_add(home)),
+            Target::Speed(speed) => Target::Speed(speed),
+        };
+        Some(as_duty(following.servo.next(step, target)))
     }
 }

@@ -84,6 +84,8 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
                     carriers: self.board.carriers(),
                     dead_time: self.board.dead_time(),
                     encoder_latency_us: self.board.encoder_latency_us(),
+                    servo: self.memory.kept.state,
+                    keeps_servo: B::SAVES,
                 };
                 self.memory.outbox.post(&ToHost::Details(details));
             }
@@ -200,13 +202,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         if job.kind == Kind::Play && self.memory.plan.whole(plan).is_none() {
             return Err(Refusal::BadPlan);
         }
-        if job.kind == Kind::Follow {
-            let memory = &mut *self.memory;
-            if !memory.kept.is_tuned {
-                return Err(Refusal::NotTuned);
-            }
-            memory.following.begin(&memory.kept, &job);
-        }
+        self.has_servo(&job)?;
         self.run = Some(nonce);
         self.at = 0;
         self.begun_at = self.count;
@@ -215,6 +211,10 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         self.recording.clear();
         self.report = Report {
             run: nonce,
+            amplitude: match job.kind {
+                Kind::Follow => self.memory.kept.servo.amplitude,
+                _ => 0,
+            },
             ..NO_REPORT
         };
         self.predicts = false;
@@ -227,7 +227,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         };
         let guard = self.guard.insert(Guard::new(&job, rating, self.count));
         if job.kind == Kind::Follow {
-            guard.learn(&self.memory.kept.learned);
+            guard.learn(&self.memory.kept.servo.learned);
         }
         self.bridge = Bridge::new(job.supply_mv);
         log::started(&job);

@@ -16,6 +16,7 @@
 //! | `drive` | periods with the bridge closed: brake, play, check, record |
 //! | `rest` | periods with it open: fit, report the outcome |
 //! | `tune` | gains, and a step that tries them |
+//! | `keep` | what outlives a power cut, and whether the motor is still that one |
 //! | `follow` | set-points that the host sends |
 //! | `closed_loop` | what both share |
 //! | `script` | which duty comes next |
@@ -24,6 +25,7 @@
 mod closed_loop;
 mod drive;
 mod follow;
+mod keep;
 mod link;
 mod outbox;
 mod recording;
@@ -35,7 +37,8 @@ use crate::board::Board;
 use crate::guard::{Guard, Tripped};
 use crate::log;
 use crate::phase::{Bridge, Event, Fault, Phase};
-use follow::{Following, Kept};
+use follow::Following;
+use keep::Kept;
 use outbox::Outbox;
 use recording::Batch;
 pub use recording::Recording;
@@ -72,6 +75,8 @@ enum Work {
     Simulate,
     /// Has fitted.
     Fitted,
+    /// Saves the servo after so many periods.
+    Keep(u32),
 }
 
 /// The large part of the application's memory but for the [`Recording`], apart so that a `static` can hold it: an application
@@ -193,6 +198,7 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
         };
         app.open();
         app.travelled();
+        app.recall();
         app.introduce();
         app
     }
@@ -306,9 +312,13 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
             (Bridge::Driven, _, Some(job)) if self.length(phase, &job) == 0 => {
                 return phase.after(Event::Done).ok();
             }
-            (Bridge::Driven, _, Some(_)) => {
+            (Bridge::Driven, _, Some(job)) => {
                 if let Some(guard) = &mut self.guard {
                     guard.resume(self.count);
+                }
+                if phase == Phase::Follow {
+                    let memory = &mut *self.memory;
+                    memory.following.begin(&memory.kept.servo, &job);
                 }
                 self.apply(0);
                 Work::Brake { still: 0, all: 0 }
@@ -319,10 +329,28 @@ impl<'m, B: Board, S: Arithmetic, const N: usize> App<'m, B, S, N> {
                 }
                 Work::Fit
             }
+            (_, Phase::Fit, Some(job)) if self.is_to_be_tried(&job) => {
+                if !self.recall_motor(&job) {
+                    return Some(self.failed_by(Tripped::by(Fault::OtherMotor)));
+                }
+                // Building takes longer than a period: the next phase waits for one that begins in time.
+                Work::Fitted
+            }
+            // To look at how it predicted takes long as well.
+            (_, Phase::Simulate, Some(job))
+                if B::SAVES && job.kind == Kind::Follow && self.predicts =>
+            {
+                Work::Fitted
+            }
             (_, Phase::Simulate, Some(job)) if job.kind == Kind::Tune && self.plan_step(&job) => {
                 Work::Simulate
             }
-            (_, Phase::Fit | Phase::Simulate, _) => return phase.after(Event::Done).ok(),
+            (_, Phase::Keep, Some(_)) if self.is_to_be_kept() => {
+                Work::Keep(Self::periods(keep::TOLD_US))
+            }
+            (_, Phase::Fit | Phase::Simulate | Phase::Keep, _) => {
+                return phase.after(Event::Done).ok();
+            }
             _ => Work::Rest,
         };
         if let (true, Some(job)) = (changed, self.job) {

@@ -20,6 +20,11 @@ impl Outbox {
         }
     }
 
+    /// True if nothing waits.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
     /// Queues a message as a whole, or drops it if there is no room: the host asks again for what it misses.
     pub fn post(&mut self, message: &ToHost) {
         let mut buffer = [0; LONGEST_FRAME];

@@ -20,6 +20,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
         match (&self.work, self.phase) {
             (Work::Fit, Phase::Fit) => self.fit(),
             (Work::Simulate, Phase::Simulate) => self.simulate(),
+            (&Work::Keep(left), Phase::Keep) if B::SAVES => self.save_servo(left),
             (Work::Fitted, Phase::Fit | Phase::Simulate) if punctual => {
                 // The next phase drives: only for a host that has spoken since.
                 match self.check_link() {

@@ -1,13 +1,13 @@
 //! From a fitted motor to a servo: gains, a step that is simulated with the fitted motor, and the same step of the motor.
 
 use super::closed_loop::{OF_LIMITS, as_duty, as_part};
-use super::follow::Kept;
+use super::keep::{Kept, KeptServo};
 use super::{App, Work};
 use crate::board::Board;
 use crate::phase::Phase;
 use shared::fit::{Arithmetic, Grade, Verdict};
 use shared::servo::{Response, Servo, Step, Target};
-use shared::wire::{Job, Tuned};
+use shared::wire::{Job, ServoState, Tuned};
 
 /// Part of the largest duty that a step may ask for.
 const ASKED: f32 = 0.5;
@@ -119,6 +119,7 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             step: trial.target(),
             predicted: Response::default(),
             measured: None,
+            kept: false,
         });
         true
     }
@@ -181,10 +182,12 @@ impl<B: Board, S: Arithmetic, const N: usize> App<'_, B, S, N> {
             tuned.measured = Some(self.memory.trial.step.response());
             if let Some(guard) = &self.guard {
                 self.memory.kept = Kept {
-                    is_tuned: true,
-                    gains: tuned.gains,
-                    amplitude: self.report.amplitude,
-                    learned: guard.learned(),
+                    state: ServoState::Tried,
+                    servo: KeptServo {
+                        gains: tuned.gains,
+                        amplitude: self.report.amplitude,
+                        learned: guard.learned(),
+                    },
                 };
             }
         }

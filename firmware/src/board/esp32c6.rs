@@ -38,6 +38,7 @@ use super::generic::{Generic, HBridge, Parts, Turn};
 use super::modulation::HalfBridges;
 use super::port::EitherPort;
 use super::sensors::NoSensors;
+use super::store::NoStore;
 
 /// Fixed point: the core has no floating-point unit.
 pub type Number = shared::scalar::Fixed;
@@ -74,6 +75,7 @@ impl Parts for DevKit {
     type Turn = Carrier;
     type Tick = Clock;
     type Sensors = NoSensors;
+    type Store = NoStore;
 }
 
 impl Esp32c6 {
@@ -117,6 +119,7 @@ impl Esp32c6 {
             turn: Carrier,
             tick: Clock::begin(TimerGroup::new(p.TIMG0).wdt, &mut Carrier),
             sensors: NoSensors,
+            store: NoStore,
             entropy,
             reset,
         }

@@ -23,6 +23,7 @@ pub use super::h_bridge::HBridge;
 use super::modulation::Modulation;
 use super::port::Port;
 use super::sensors::Sensors;
+use super::store::{LONGEST, LONGEST_SAVE_S, Store};
 use crate::phase::Fault;
 use shared::wire::Reset;
 
@@ -76,6 +77,10 @@ pub trait Tick {
     fn end(&mut self) -> Result<(), Fault>;
     /// A number that differs between two events that nobody synchronised.
     fn time(&self) -> u32;
+    /// The next end comes only after a flash was written, which may take this long. A chip's watchdog waits for it.
+    fn pause(&mut self, seconds: u32) {
+        let _ = seconds;
+    }
 }
 
 /// The control period of an application that is called once in each, by a task of somebody else's firmware: nothing waits here, and a
@@ -126,6 +131,8 @@ pub trait Parts {
     type Tick: Tick;
     /// What it measures beside: [`NoSensors`](super::sensors::NoSensors), or the board's own.
     type Sensors: Sensors;
+    /// What it keeps over a power cut: a [`FlashStore`](super::store::FlashStore), or [`NoStore`](super::store::NoStore).
+    type Store: Store;
 }
 
 /// The bridge of a board's parts.
@@ -151,6 +158,8 @@ pub struct Generic<P: Parts> {
     pub tick: P::Tick,
     /// What it measures beside.
     pub sensors: P::Sensors,
+    /// What it keeps over a power cut.
+    pub store: P::Store,
     /// Noise of the board's.
     pub entropy: Entropy,
     /// What made it start.
@@ -164,6 +173,7 @@ impl<P: Parts> Board for Generic<P> {
     const SENSES_CURRENT: bool = P::Sensors::CURRENT;
     const CURRENT_LIMIT_MA: u32 = P::Sensors::CURRENT_LIMIT_MA;
     const CURRENT_RESOLUTION_MA: u16 = P::Sensors::CURRENT_RESOLUTION_MA;
+    const SAVES: bool = P::Store::KEEPS;
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
@@ -230,6 +240,15 @@ impl<P: Parts> Board for Generic<P> {
         self.entropy.draw(self.tick.time())
     }
 
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        self.store.load(key, into)
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        self.tick.pause(LONGEST_SAVE_S);
+        self.store.save(key, value)
+    }
+
     fn reset(&self) -> Reset {
         self.reset
     }
@@ -240,6 +259,7 @@ mod tests {
     use super::*;
     use crate::board::link::Link;
     use crate::board::modulation::HalfBridges;
+    use crate::board::store::NoStore;
     use core::convert::Infallible;
     use core::future::{pending, ready};
     use embedded_hal_mock::eh1::MockError;
@@ -324,6 +344,7 @@ mod tests {
         type Turn = AfterDelay<CheckedDelay>;
         type Tick = Periods;
         type Sensors = Shunt;
+        type Store = NoStore;
     }
 
     /// A shunt, a divider and a thermometer.
@@ -369,6 +390,7 @@ mod tests {
             },
             tick: Periods,
             sensors: Shunt { hot: false },
+            store: NoStore,
             entropy: Entropy::default(),
             reset: Reset::Unknown,
         }

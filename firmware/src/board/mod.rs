@@ -52,6 +52,7 @@ pub mod stm32f427;
 pub mod stm32f446;
 #[cfg(all(target_os = "none", feature = "stm32g431"))]
 pub mod stm32g431;
+pub mod store;
 
 // The board that this build is for, the number that its application fits in, and the periods that it can.
 #[cfg(all(target_os = "none", feature = "esp32c6"))]
@@ -92,6 +93,8 @@ pub trait Board {
     /// Current that the bridge bears, mA: the limit of every run on a board that measures it. Zero for a bridge that protects
     /// itself.
     const CURRENT_LIMIT_MA: u32 = 0;
+    /// Whether it [saves](Self::save) what is to outlive a power cut.
+    const SAVES: bool = false;
     /// Step of the current's measurement, mA.
     const CURRENT_RESOLUTION_MA: u16 = 1;
 
@@ -173,6 +176,18 @@ pub trait Board {
     /// A number that differs from one power-up to the next as well as the board can make it (noise of an ADC, a cycle
     /// counter, a unique identity): it seeds the nonces of the arming command.
     fn entropy(&mut self) -> u32;
+
+    /// See [`Store::load`](store::Store::load).
+    fn load(&mut self, key: u8, into: &mut [u8; store::LONGEST]) -> Option<usize> {
+        let _ = (key, into);
+        None
+    }
+
+    /// See [`Store::save`](store::Store::save). The bridge is open. The board's watchdog waits for as long as it may take.
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        let _ = (key, value);
+        false
+    }
 
     /// What made the board start.
     fn reset(&self) -> Reset {

@@ -3,9 +3,12 @@
 
 use super::Board;
 use super::lockstep::{Answer, Reading, ask};
+use super::store::LONGEST;
 use crate::phase::Fault;
+use std::fs;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
+use std::path::PathBuf;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The PC as a board.
@@ -20,6 +23,7 @@ pub struct Pc {
     reading: Reading,
     answer: Answer,
     gone: bool,
+    flash: Option<PathBuf>,
 }
 
 impl Pc {
@@ -42,7 +46,15 @@ impl Pc {
             reading: Reading::default(),
             answer: Answer::default(),
             gone: false,
+            flash: None,
         })
+    }
+
+    /// With a file for what outlives a power cut.
+    #[must_use]
+    pub fn with_flash(mut self, file: PathBuf) -> Self {
+        self.flash = Some(file);
+        self
     }
 
     /// True once the plant has disconnected: the program then ends.
@@ -92,6 +104,7 @@ impl Board for Pc {
     const PERIOD_US: u32 = 1000;
     const SLICE: u32 = 100_000;
     const SENSES_CURRENT: bool = true;
+    const SAVES: bool = true;
 
     fn drive(&mut self, duty: i16) {
         self.duty = Some(duty);
@@ -142,6 +155,20 @@ impl Board for Pc {
                 bytes.len()
             }
         }
+    }
+
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        let bytes = fs::read(self.flash.as_ref()?).ok()?;
+        let value = bytes.strip_prefix(&[key])?;
+        into.get_mut(..value.len())?.copy_from_slice(value);
+        Some(value.len())
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        let bytes = [&[key], value].concat();
+        self.flash
+            .as_ref()
+            .is_some_and(|file| fs::write(file, bytes).is_ok())
     }
 
     fn entropy(&mut self) -> u32 {

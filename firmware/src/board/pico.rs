@@ -23,10 +23,11 @@ mod usb;
 
 use embassy_rp::bind_interrupts;
 use embassy_rp::clocks::RoscRng;
+use embassy_rp::flash::{Blocking, ERASE_SIZE, Flash};
 use embassy_rp::gpio::{Input, Level, Output, Pull};
 use embassy_rp::interrupt::{self, InterruptExt, Priority};
 use embassy_rp::pac::{PWM, SIO};
-use embassy_rp::peripherals::{PIO0, UART0, USB};
+use embassy_rp::peripherals::{FLASH, PIO0, UART0, USB};
 use embassy_rp::pio::{self, Pio};
 use embassy_rp::pwm::{self, Pwm, PwmOutput};
 use embassy_rp::uart::{self, BufferedUart};
@@ -47,6 +48,7 @@ use super::period::Period;
 use super::pio_encoder::Encoder;
 use super::port::EitherPort;
 use super::sensors::NoSensors;
+use super::store::FlashStore;
 
 /// Compare value of an output that is always high: the carrier counts up to the step before it and down again, at 20 kHz.
 const FULL: u16 = (CORE_HZ / (1000 * CARRIERS) / 2) as u16;
@@ -56,6 +58,12 @@ const CARRIERS: u32 = 20;
 const ENABLE: usize = 18;
 /// Part of the PWM that has the bridge's pins.
 const SLICE: usize = 0;
+
+/// Flash that every board with this chip has, at least.
+const FLASH_SIZE: usize = 2 << 20;
+/// Its last two pages.
+const PAGES: u32 = (FLASH_SIZE - 2 * ERASE_SIZE) as u32;
+type OnBoardFlash = Flash<'static, FLASH, Blocking, FLASH_SIZE>;
 
 bind_interrupts!(struct Interrupts {
     UART0_IRQ => uart::BufferedInterruptHandler<UART0>;
@@ -87,6 +95,7 @@ impl Parts for Pico {
     type Turn = Carrier;
     type Tick = Supervised;
     type Sensors = NoSensors;
+    type Store = FlashStore<OnBoardFlash>;
 }
 
 impl PicoBoard {
@@ -146,6 +155,7 @@ impl PicoBoard {
             turn,
             tick: Supervised::begin(period, p.WATCHDOG),
             sensors: NoSensors,
+            store: FlashStore::new(Flash::new_blocking(p.FLASH), PAGES),
             entropy,
             reset,
         }

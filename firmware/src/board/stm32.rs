@@ -29,6 +29,7 @@ use super::generic::Tick;
 use super::link::Link;
 use super::period::Period;
 use super::port::Port;
+use super::store::{LONGEST, Store};
 use crate::phase::Fault;
 
 /// The cores have a floating-point unit, but for one.
@@ -43,6 +44,14 @@ pub const CAPACITY: usize = 2000;
 /// Periods that it can fit: it has 20 KiB of RAM.
 #[cfg(feature = "stm32f103")]
 pub const CAPACITY: usize = 500;
+
+/// What the chip keeps over a power cut: nothing on the STM32F103, whose flash has no room beside the image, nor on the STM32G431, whose flash
+/// interrupts a program that reads a word of which the power was cut while it was written.
+#[cfg(any(feature = "stm32f103", feature = "stm32g431"))]
+pub type Keeps = super::store::NoStore;
+/// What the chip keeps over a power cut.
+#[cfg(not(any(feature = "stm32f103", feature = "stm32g431")))]
+pub type Keeps = super::stm32f4::FlashPages;
 
 const PERIOD_US: u32 = 1000;
 /// Carrier periods in a control period: 20 kHz, above hearing and below the limit of most gate drivers.
@@ -124,6 +133,7 @@ pub struct Stm32<W: Wiring> {
     period: Period,
     entropy: Entropy,
     supervision: Supervision,
+    store: Keeps,
     reset: Reset,
     wiring: W,
 }
@@ -135,6 +145,7 @@ impl<W: Wiring> Stm32<W> {
         encoder: Qei<'static, W::EncoderTimer>,
         uart: BufferedUart<'static>,
         watchdog: Peri<'static, IWDG>,
+        store: Keeps,
         mut wiring: W,
     ) -> Self {
         wiring.enable(false);
@@ -160,6 +171,7 @@ impl<W: Wiring> Stm32<W> {
             period,
             entropy,
             supervision: Supervision::begin(watchdog),
+            store,
             reset,
             wiring,
         }
@@ -173,6 +185,7 @@ impl<W: Wiring> Board for Stm32<W> {
     const SENSES_CURRENT: bool = W::SENSES_CURRENT;
     const CURRENT_LIMIT_MA: u32 = W::CURRENT_LIMIT_MA;
     const CURRENT_RESOLUTION_MA: u16 = W::CURRENT_RESOLUTION_MA;
+    const SAVES: bool = Keeps::KEEPS;
 
     fn drive(&mut self, duty: i16) {
         self.bridge.drive(duty);
@@ -241,6 +254,17 @@ impl<W: Wiring> Board for Stm32<W> {
 
     fn entropy(&mut self) -> u32 {
         self.entropy.draw(self.period.time())
+    }
+
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        self.store.load(key, into)
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        self.supervision.pause();
+        let saved = self.store.save(key, value);
+        self.supervision.resume();
+        saved
     }
 
     fn reset(&self) -> Reset {

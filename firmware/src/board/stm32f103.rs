@@ -29,6 +29,7 @@ use static_cell::ConstStaticCell;
 use super::link;
 use super::stm32::module::{Module, ModuleBoard, Noise};
 use super::stm32::{self, Bridge, BridgePins, Stm32};
+use super::store::NoStore;
 
 /// Blue Pill and its bridge.
 pub type Stm32f103 = Stm32<Module<BluePill>>;
@@ -73,7 +74,7 @@ impl Stm32f103 {
         let adc = Adc::new(p.ADC1);
         let channel = adc.enable_temperature();
         let wiring = Module::new(p.PB10, Thermometer { adc, channel });
-        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, NoStore, wiring)
     }
 }
 

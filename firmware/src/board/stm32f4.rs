@@ -1,16 +1,64 @@
 //! What the STM32F4 boards share.
 
-use embassy_stm32::Config;
+use embassy_stm32::flash::{Blocking, Flash};
+use embassy_stm32::pac;
+use embassy_stm32::peripherals::FLASH;
 use embassy_stm32::rcc::{
     AHBPrescaler, APBPrescaler, Hse, HseMode, Pll, PllMul, PllPDiv, PllPreDiv, PllSource, Sysclk,
 };
 use embassy_stm32::time::mhz;
+use embassy_stm32::{Config, Peri};
 #[cfg(any(feature = "stm32f411", feature = "stm32f446"))]
 use embassy_stm32::{
-    Peri,
     adc::{Adc, SampleTime, Temperature},
     peripherals::ADC1,
 };
+
+#[cfg(not(feature = "stm32f427"))]
+use embassy_stm32::flash::Bank1Region3 as Pages;
+#[cfg(feature = "stm32f427")]
+use embassy_stm32::flash::Bank2Region1 as Pages;
+
+use super::store::{FlashStore, LONGEST, Store};
+
+/// The sectors behind the image, the first two of 128 KiB; on the STM32F427 the first two of the second bank, of 16 KiB each, which are written
+/// while the program goes on in the first.
+pub struct FlashPages(Option<FlashStore<Pages<'static, Blocking>>>);
+
+/// Takes the flash.
+pub fn store(flash: Peri<'static, FLASH>) -> FlashPages {
+    // Reading the second bank of older ones fails while PA12 is in use (erratum 2.2.11 of the STM32F42xx), and the HAL does not try.
+    #[cfg(feature = "stm32f427")]
+    if pac::DBGMCU.idcode().read().rev_id() < 0x2001 {
+        return FlashPages(None);
+    }
+    let regions = Flash::new_blocking(flash).into_blocking_regions();
+    #[cfg(not(feature = "stm32f427"))]
+    let pages = regions.bank1_region3;
+    #[cfg(feature = "stm32f427")]
+    let pages = regions.bank2_region1;
+    FlashPages(Some(FlashStore::new(pages, 0)))
+}
+
+impl Store for FlashPages {
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        self.0.as_mut()?.load(key, into)
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        let Some(pages) = &mut self.0 else {
+            return false;
+        };
+        // What was read before it was written stays in the cache of the data (RM0090, 3.5.2).
+        let control = pac::FLASH.acr();
+        control.modify(|w| w.set_dcen(false));
+        let saved = pages.save(key, value);
+        control.modify(|w| w.set_dcrst(true));
+        control.modify(|w| w.set_dcrst(false));
+        control.modify(|w| w.set_dcen(true));
+        saved
+    }
+}
 
 /// 168 MHz, the fastest that all but the F411 run at, from 8 MHz on the pins of the external oscillator: the internal one
 /// would let every time constant that is identified be wrong by up to a percent.

@@ -91,7 +91,14 @@ impl Stm32f405 {
             shunts,
             _held: held,
         };
-        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
+        Stm32::new(
+            bridge,
+            encoder,
+            uart,
+            p.IWDG,
+            stm32f4::store(p.FLASH),
+            wiring,
+        )
     }
 }
 

@@ -73,7 +73,14 @@ impl Stm32f427 {
             current,
             sensor,
         };
-        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
+        Stm32::new(
+            bridge,
+            encoder,
+            uart,
+            p.IWDG,
+            stm32f4::store(p.FLASH),
+            wiring,
+        )
     }
 }
 

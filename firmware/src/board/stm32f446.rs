@@ -62,6 +62,13 @@ impl Stm32f446 {
         )
         .expect("the clock suits the link's speed");
         let wiring = Module::new(p.PB10, Thermometer::new(p.ADC1));
-        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
+        Stm32::new(
+            bridge,
+            encoder,
+            uart,
+            p.IWDG,
+            stm32f4::store(p.FLASH),
+            wiring,
+        )
     }
 }

@@ -33,6 +33,7 @@ use static_cell::{ConstStaticCell, StaticCell};
 use super::link;
 use super::shunts::Shunts;
 use super::stm32::{self, Bridge, BridgePins, Stm32, Wiring};
+use super::store::NoStore;
 
 /// B-G431B-ESC1.
 pub type Stm32g431 = Stm32<Connections>;
@@ -91,7 +92,7 @@ impl Stm32g431 {
             shunts,
             _held: held,
         };
-        Stm32::new(bridge, encoder, uart, p.IWDG, wiring)
+        Stm32::new(bridge, encoder, uart, p.IWDG, NoStore, wiring)
     }
 }
 

@@ -1,9 +1,10 @@
 //! What a run has shown of its motor, so that the next one need not probe.
 
 use super::response::Acceleration;
+use serde::{Deserialize, Serialize};
 
 /// What the probe and the drive have shown of a motor.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Learned {
     pub(super) motion: OfMotion,
     pub(super) current: OfCurrent,
@@ -12,7 +13,7 @@ pub struct Learned {
 }
 
 /// How its shaft follows the drive.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct OfMotion {
     pub(super) window: u32,
     pub(super) strong: i16,
@@ -22,7 +23,7 @@ pub(super) struct OfMotion {
 }
 
 /// What its winding draws, and how fast which drive makes it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct OfCurrent {
     pub(super) stall_ma: u32,
     pub(super) fastest: [u32; 2],

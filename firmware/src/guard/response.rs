@@ -1,12 +1,14 @@
 //! How a free shaft answers a strong drive, and what a shaft is that does not.
 
+use serde::{Deserialize, Serialize};
+
 /// Travel that a shaft at rest may show: its encoder stands on an edge, and one count is quantisation.
 pub const REST_COUNTS: i32 = 2;
 /// Travel that shows that a shaft is free, counts.
 const FREE_COUNTS: i64 = 3 * REST_COUNTS as i64;
 
 /// The least acceleration by a strong drive: half of what the probe's last step showed.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct Acceleration {
     /// Travel of that step, counts.
     pub motion: i64,

@@ -2,10 +2,11 @@
 
 use core::cell::RefCell;
 
-use heapless::Deque;
+use heapless::{Deque, Vec};
 use shared::rng;
 
 use crate::board::Board;
+use crate::board::store::{LONGEST, Store};
 use crate::phase::Fault;
 use crate::plant::{CARRIERS, Motor};
 
@@ -49,6 +50,8 @@ pub struct Bench {
     pub fails: Option<Fault>,
     /// Time from the end of a period to the carrier's turn, s: the next duty acts then, and the count is the count then.
     pub turn_s: f32,
+    /// What outlives a power cut.
+    pub saved: Saved,
     /// A duty that waits for the turn.
     waits: Option<i16>,
     turned: bool,
@@ -76,6 +79,7 @@ impl Bench {
             noise: rng::seeded(1),
             fails: None,
             turn_s: 0.0,
+            saved: Saved::default(),
             waits: None,
             turned: true,
             motor,
@@ -129,6 +133,23 @@ impl Bench {
     }
 }
 
+/// A memory that loses nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Saved(Option<(u8, Vec<u8, LONGEST>)>);
+
+impl Store for Saved {
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        let (_, value) = self.0.as_ref().filter(|(saved, _)| *saved == key)?;
+        into.get_mut(..value.len())?.copy_from_slice(value);
+        Some(value.len())
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        self.0 = Vec::from_slice(value).ok().map(|value| (key, value));
+        self.0.is_some()
+    }
+}
+
 /// Level of the encoder's first line at a position.
 fn level(count: i32) -> i32 {
     i32::from(count.rem_euclid(4) >= 2)
@@ -143,6 +164,7 @@ impl<const SENSES: bool> Board for OnBench<'_, SENSES> {
     const PERIOD_US: u32 = 1000;
     const SLICE: u32 = 20_000;
     const SENSES_CURRENT: bool = SENSES;
+    const SAVES: bool = true;
 
     fn drive(&mut self, duty: i16) {
         let bench = &mut *self.0.borrow_mut();
@@ -204,6 +226,14 @@ impl<const SENSES: bool> Board for OnBench<'_, SENSES> {
             .iter()
             .take_while(|&&byte| queue.push_back(byte).is_ok())
             .count()
+    }
+
+    fn load(&mut self, key: u8, into: &mut [u8; LONGEST]) -> Option<usize> {
+        self.0.borrow_mut().saved.load(key, into)
+    }
+
+    fn save(&mut self, key: u8, value: &[u8]) -> bool {
+        self.0.borrow_mut().saved.save(key, value)
     }
 
     fn entropy(&mut self) -> u32 {

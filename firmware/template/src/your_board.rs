@@ -14,6 +14,7 @@ use firmware::board::link::{Link, RECEIVE_BUFFER, SEND_BUFFER};
 use firmware::board::modulation::HalfBridges;
 use firmware::board::pio_encoder::Encoder;
 use firmware::board::sensors::NoSensors;
+use firmware::board::store::NoStore;
 use static_cell::ConstStaticCell;
 
 /// Compare value of an output that is always high: 20 kHz at 125 MHz.
@@ -44,6 +45,7 @@ impl Parts for Yours {
     type Turn = AfterDelay<Delay>;
     type Tick = CallersClock;
     type Sensors = NoSensors;
+    type Store = NoStore;
 }
 
 /// Puts it together, with the bridge open. Once: a second call finds the chip's parts taken.
@@ -83,6 +85,7 @@ pub fn start() -> Generic<Yours> {
         },
         tick: CallersClock::default(),
         sensors: NoSensors,
+        store: NoStore,
         entropy: Default::default(),
         reset: Default::default(),
     }

@@ -93,7 +93,7 @@ fn reason(refusal: &Refusal) -> &'static str {
             "a length or a limit is zero or beyond what it can do; see `servoid device info`"
         }
         Refusal::NotTuned => {
-            "it has no servo: tune it first, by `servoid device tune`, and leave it powered"
+            "it has no servo: tune it first, by `servoid device tune`; of a board that keeps none in its flash, leave it powered"
         }
         Refusal::BadPlan => {
             "the plan has too many segments for it, or is not the one that it holds; try again, or use a shorter plan"

@@ -64,7 +64,12 @@ impl Expected {
             Stage::Tune if self.job.kind == Kind::Tune => LONGEST_STEP,
             Stage::Follow if self.job.kind == Kind::Follow => self.job.limits.time,
             Stage::Follow => 0,
-            Stage::Idle | Stage::Fit | Stage::Simulate | Stage::Tune | Stage::Report => 0,
+            Stage::Idle
+            | Stage::Fit
+            | Stage::Simulate
+            | Stage::Tune
+            | Stage::Keep
+            | Stage::Report => 0,
         }
     }
 

@@ -98,9 +98,13 @@ fn followed(
 ) -> Option<device::Followed> {
     let (from_s, aim) = course.last()?;
     let period_s = f64::from(about.period_us) * 1e-6;
-    let rows: Vec<_> = (recorded.iter().find(|part| part.stage == Stage::Follow))
-        .map(|part| part.whole().collect())
-        .unwrap_or_default();
+    let part = recorded.iter().find(|part| part.stage == Stage::Follow);
+    let rows: Vec<_> = part.map(|part| part.whole().collect()).unwrap_or_default();
+    // A motor that was tried first has gone some way by then.
+    let gone = match (recorded.first(), part) {
+        (Some(first), Some(part)) => part.count.wrapping_sub(first.count),
+        _ => 0,
+    };
     let period = |seconds: f64| (seconds / period_s).round() as usize;
     let end = period(course.seconds());
     let travel = |from: usize| -> Option<f64> {
@@ -109,7 +113,11 @@ fn followed(
         Some(counts as f64 * TAU / order.counts_per_rev)
     };
     let (what, set_point, reached) = match aim {
-        Aim::Angle(rad) => (device::FollowedWhat::Angle, rad, travel(0)),
+        Aim::Angle(rad) => {
+            let gone = f64::from(gone) * TAU / order.counts_per_rev;
+            let reached = travel(0).map(|rad| rad + gone);
+            (device::FollowedWhat::Angle, rad, reached)
+        }
         Aim::Speed(speed) => {
             let quarter = (course.seconds() - from_s) / 4.0;
             let from = end.saturating_sub(period(quarter).max(1));
@@ -193,6 +201,7 @@ fn tuned(tuned: &Tuned, period_s: f64, order: &Order, unit_v: f64) -> device::Tu
         step_counts: tuned.step,
         predicted: answer(&tuned.predicted),
         measured: tuned.measured.as_ref().map(answer),
+        kept: tuned.kept,
     }
 }
 

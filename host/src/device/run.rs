@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 const ALIVE: Duration = Duration::from_millis(20);
 /// Time-out of the device.
 const GONE: Duration = Duration::from_secs(5);
+/// The same while it writes its flash, which may stop its core for seconds.
+const GONE_WHILE_KEEPING: Duration = Duration::from_secs(20);
 /// Time-out of the report after a stop.
 const FAREWELL: Duration = Duration::from_secs(2);
 
@@ -119,10 +121,14 @@ fn until_the_end(
         }
         expected.check_time(now.duration_since(begun), now.duration_since(advanced))?;
         let Some(message) = conversation.hear()? else {
-            if now.duration_since(heard) > GONE {
+            let gone = match stages.last() {
+                Some(Stage::Keep) => GONE_WHILE_KEEPING,
+                _ => GONE,
+            };
+            if now.duration_since(heard) > gone {
                 return Err(DeviceError::Silent {
                     port: "the device".to_owned(),
-                    seconds: GONE.as_secs_f64(),
+                    seconds: gone.as_secs_f64(),
                     noise: String::new(),
                 });
             }

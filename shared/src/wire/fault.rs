@@ -49,11 +49,13 @@ pub enum Fault {
     BridgeHot,
     /// Several readings of the encoder in a row were unusable.
     Encoder,
+    /// The motor is not the one whose servo was kept.
+    OtherMotor,
 }
 
 impl Fault {
     /// All of them, in the order of the wire.
-    pub const ALL: [Fault; 21] = [
+    pub const ALL: [Fault; 22] = [
         Fault::Stopped,
         Fault::LinkLost,
         Fault::Overrun,
@@ -75,6 +77,7 @@ impl Fault {
         Fault::Undervoltage,
         Fault::BridgeHot,
         Fault::Encoder,
+        Fault::OtherMotor,
     ];
 
     /// The unit of the number that broke the limit, and of the limit; nothing where there is none.
@@ -85,6 +88,7 @@ impl Fault {
             Fault::Overcurrent | Fault::Overheated => "mA",
             Fault::Overspeed => "counts a period",
             Fault::TimeUp => "periods",
+            Fault::OtherMotor => "percent",
             Fault::Overvoltage | Fault::Undervoltage => "mV",
             Fault::Stopped
             | Fault::Stall
@@ -124,6 +128,7 @@ impl fmt::Display for Fault {
             Fault::Overvoltage => "the supply rose too far, the motor brakes into it: add a brake resistor or capacitance, or ask for a smaller amplitude",
             Fault::Undervoltage => "the supply broke down: it bears too little current for this drive; ask for a smaller amplitude, or take a stronger supply",
             Fault::BridgeHot => "the bridge is too hot: let it cool, cool it better, or ask for a smaller amplitude",
+            Fault::OtherMotor => "the motor is not the one whose servo was kept: its gain or its acceleration has changed; check supply and load, or tune again",
             Fault::Encoder => "the encoder's readings were unusable: check its wires, its supply and its magnet",
         })
     }

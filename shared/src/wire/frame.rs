@@ -12,8 +12,8 @@ pub const LONGEST_FRAME: usize = 320;
 /// Bytes of the check at the end of a message.
 const CHECK: usize = 4;
 
-/// Without a table, which would take a kilobyte of a microcontroller's flash.
-pub(super) static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
+/// The check of a frame, and of what a device keeps. Without a table, which would take a kilobyte of a microcontroller's flash.
+pub static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
 /// The frame of a message, ended by a zero byte; `None` if the buffer is too short.
 pub fn encode<'a, T: Serialize>(message: &T, buffer: &'a mut [u8]) -> Option<&'a [u8]> {

@@ -179,6 +179,23 @@ pub struct Details {
     pub dead_time: u16,
     /// How long its encoder's readings are late, µs.
     pub encoder_latency_us: u32,
+    /// Its servo.
+    pub servo: ServoState,
+    /// Whether a servo outlives a power cut.
+    pub keeps_servo: bool,
+}
+
+/// A device's servo.
+// The first is a zero, so that a static of it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum ServoState {
+    /// Nothing was tuned.
+    None,
+    /// It was tuned before the last power-up: whether the motor is still that one is to be seen.
+    Untried,
+    /// It is the motor's.
+    Tried,
 }
 
 /// A number format of the model.
@@ -214,6 +231,8 @@ pub enum Stage {
     Tune,
     /// Follows set-points in a closed loop.
     Follow,
+    /// Saves the servo where it outlives a power cut; the bridge is open, and a while nothing is heard of the device.
+    Keep,
 }
 
 /// Why a command was refused.
@@ -228,7 +247,7 @@ pub enum Refusal {
     BadJob,
     /// The plan is too long for the device, or not the one that it holds.
     BadPlan,
-    /// There is no servo: the device was not tuned since it powered up.
+    /// There is no servo: the device was not tuned since it powered up, and keeps none from before.
     NotTuned,
 }
 
@@ -244,7 +263,8 @@ pub enum Kind {
     Play,
     /// As [`Commission`](Kind::Commission); then simulate and tune, if the numbers are good enough for it.
     Tune,
-    /// Follow set-points with the servo of the last [`Tune`](Kind::Tune).
+    /// Follow set-points with the servo of the last [`Tune`](Kind::Tune). Where that was before the last power-up, the run begins with a
+    /// verification, which says whether the motor is still that one.
     Follow,
 }
 
@@ -389,6 +409,8 @@ pub struct Tuned {
     pub predicted: Response,
     /// How the motor did; nothing if its step was given up.
     pub measured: Option<Response>,
+    /// Whether it outlives a power cut.
+    pub kept: bool,
 }
 
 /// How a run was given up.

@@ -18,13 +18,13 @@ mod plan;
 mod reset;
 
 pub use fault::Fault;
-pub use frame::{Deframer, LONGEST_FRAME, encode};
+pub use frame::{CRC, Deframer, LONGEST_FRAME, encode};
 pub use message::{
     About, Details, Failure, Format, Job, Kind, Limits, MOST_ROWS, Refusal, Report, Row, Rows,
-    SetPoint, Stage, ToDevice, ToHost, Tuned,
+    ServoState, SetPoint, Stage, ToDevice, ToHost, Tuned,
 };
 pub use plan::{MOST_SEGMENTS, PLAN_SEGMENTS, PlanDigest, PlanPart, PlanStore, Segment};
 pub use reset::Reset;
 
 /// Version of the messages.
-pub const VERSION: u16 = 5;
+pub const VERSION: u16 = 6;

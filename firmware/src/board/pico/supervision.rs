@@ -45,6 +45,10 @@ impl Tick for Supervised {
         ended
     }
 
+    fn pause(&mut self, seconds: u32) {
+        self.watchdog.feed(Duration::from_secs(seconds.into()));
+    }
+
     fn time(&self) -> u32 {
         self.period.time()
     }

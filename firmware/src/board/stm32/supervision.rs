@@ -3,12 +3,14 @@
 
 use cortex_m_rt::exception;
 use embassy_stm32::Peri;
-use embassy_stm32::pac::{DBGMCU, RCC};
+use embassy_stm32::pac::iwdg::vals::Key;
+use embassy_stm32::pac::{DBGMCU, IWDG as REGISTERS, RCC};
 use embassy_stm32::peripherals::IWDG;
 use embassy_stm32::wdg::IndependentWatchdog;
 use shared::wire::Reset;
 
 use super::{open_bridge, restart};
+use crate::board::store::LONGEST_SAVE_S;
 
 /// After this long without [`Supervision::feed`] the chip is reset, µs by the nominal 32 kHz of the watchdog's own oscillator.
 /// On an F4 that is anything from 17 to 47 kHz: 5.1 to 14.1 ms. On a G4 it keeps to some 5 %. On an F1 it is nominally 40 kHz, of 30 to
@@ -18,8 +20,11 @@ use super::{open_bridge, restart};
 /// emulator, with two cycles an instruction at 168 MHz).
 const TIME_OUT_US: u32 = 7_500;
 
+/// While a flash is written, at the fastest of its oscillators still [`LONGEST_SAVE_S`].
+const PAUSE_US: u32 = 2 * LONGEST_SAVE_S * 1_000_000;
+
 /// The watchdog, which nobody can stop again.
-pub struct Supervision(IndependentWatchdog<'static, IWDG>);
+pub struct Supervision(Peri<'static, IWDG>);
 
 impl Supervision {
     /// Begins: from the first [`feed`](Self::feed) on, each must follow the one before within the time-out. Until then it is half
@@ -27,14 +32,31 @@ impl Supervision {
     pub fn begin(watchdog: Peri<'static, IWDG>) -> Self {
         watch_clock();
         halt_with_core();
-        let mut watchdog = IndependentWatchdog::new(watchdog, TIME_OUT_US);
-        watchdog.unleash();
-        Self(watchdog)
+        let mut begun = Self(watchdog);
+        IndependentWatchdog::new(begun.0.reborrow(), TIME_OUT_US).unleash();
+        begun
     }
 
     /// A control period has ended.
     pub fn feed(&mut self) {
-        self.0.pet();
+        REGISTERS.kr().write(|w| w.set_key(Key::RESET));
+    }
+
+    /// The next period may end long after this one.
+    pub fn pause(&mut self) {
+        self.wait(PAUSE_US);
+    }
+
+    /// From now on each period must end in time again.
+    pub fn resume(&mut self) {
+        self.wait(TIME_OUT_US);
+    }
+
+    /// Waits for so long from now on. The watchdog takes new figures over within five turns of its oscillator.
+    fn wait(&mut self, time_out_us: u32) {
+        IndependentWatchdog::new(self.0.reborrow(), time_out_us);
+        while REGISTERS.sr().read().0 != 0 {}
+        self.feed();
     }
 }
 

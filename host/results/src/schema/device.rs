@@ -135,6 +135,9 @@ pub struct Tuned {
     pub predicted: Answer,
     /// How the motor did; null if its step was given up.
     pub measured: Option<Answer>,
+    /// Whether the device keeps it over a power cut.
+    #[serde(default)]
+    pub kept: bool,
 }
 
 /// The last set-point of a servo, and what it reached: the angle at its end, or the mean speed of its last quarter.

@@ -10,7 +10,7 @@ use crate::device::{Conversation, serial_ports};
 use crate::error::Error;
 use crate::session::Session;
 use serde::Serialize;
-use shared::wire::{About, Format, Kind, ToDevice};
+use shared::wire::{About, Format, Kind, ServoState, ToDevice};
 
 pub(super) fn run(session: &Session, args: &DeviceArgs) -> Result<(), Error> {
     match &args.verb {
@@ -78,6 +78,10 @@ struct AboutJson<'a> {
     current_limit_a: Option<f64>,
     /// How long its encoder's readings are late, s.
     encoder_latency_s: f64,
+    /// Its servo: `none`, `untried` since the last power-up, or `tried`.
+    servo: &'static str,
+    /// Whether it keeps a servo over a power cut.
+    keeps_servo: bool,
     /// What made the device start.
     reset: String,
     stage: String,
@@ -93,9 +97,19 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
         Format::Fixed => "fixed point",
     };
     let stage = format!("{:?}", about.stage).to_lowercase();
+    let (servo, about_servo) = match (details.servo, details.keeps_servo) {
+        (ServoState::None, true) => ("none", "not tuned; a servo is kept in its flash"),
+        (ServoState::None, false) => ("none", "not tuned; a servo is kept until the power is cut"),
+        (ServoState::Untried, _) => (
+            "untried",
+            "tuned before the last power-up: the motor is tried before it follows",
+        ),
+        (ServoState::Tried, true) => ("tried", "tuned; the servo is kept in its flash"),
+        (ServoState::Tried, false) => ("tried", "tuned; the servo is kept until the power is cut"),
+    };
     let period_s = f64::from(about.period_us) * 1e-6;
     let text = format!(
-        "{}, firmware {}, {stage}\n  control period {} ms; fits up to {} periods ({:.2} s) in {format}\n  {}\n  last start: {}\n",
+        "{}, firmware {}, {stage}\n  control period {} ms; fits up to {} periods ({:.2} s) in {format}\n  {}\n  {}\n  last start: {}\n",
         about.board,
         about.firmware,
         period_s * 1e3,
@@ -107,6 +121,7 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
             (false, true) => "measures the supply, not the current",
             (false, false) => "no sensor of current or supply",
         },
+        about_servo,
         details.reset
     );
     let limit_a = f64::from(details.current_limit_ma) * 1e-3;
@@ -122,6 +137,8 @@ fn info(session: &Session, args: &OnDevice) -> Result<(), Error> {
         senses_supply: details.senses_supply,
         current_limit_a: Some(limit_a).filter(|limit| *limit > 0.0),
         encoder_latency_s: f64::from(details.encoder_latency_us) * 1e-6,
+        servo,
+        keeps_servo: details.keeps_servo,
         reset: details.reset.to_string(),
         stage,
     };

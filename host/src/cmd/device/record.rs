@@ -14,10 +14,13 @@ use indicatif::ProgressBar;
 use servoid_io::output::CommandSequence;
 use servoid_results::device_run::{COLUMNS, Folder, Lines};
 use servoid_results::schema::DeviceRun;
-use servoid_results::schema::device::{Answer, Followed, FollowedWhat, Tuned};
+use servoid_results::schema::device::{Answer, Followed, FollowedWhat, Predicted, Tuned};
 use shared::fit::{Grade, Method, Settings};
 use shared::wire::{About, Fault, Kind, Segment, Stage};
 use std::path::Path;
+
+/// A motor whose servo was kept over a power cut is verified for so long before it follows, s.
+const TRIED_S: f64 = 1.0;
 
 /// The common part of an order, without the settings of a commissioning.
 pub(super) fn order(
@@ -278,6 +281,9 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[String]) -> Str
         }
     }
     text += &saved.followed.as_ref().map_or(String::new(), followed);
+    if let (None, Some(predicted)) = (&saved.outcome, &saved.predicted) {
+        text += &tried(predicted);
+    }
     text += &format!(
         "{}: {}, motor.toml, device.json\n",
         path.display(),
@@ -292,6 +298,19 @@ fn summary(saved: &DeviceRun, run: &Run, path: &Path, written: &[String]) -> Str
         );
     }
     text
+}
+
+/// What a verification found of a motor whose servo was kept.
+fn tried(predicted: &Predicted) -> String {
+    let part = |x: Option<f64>| match x {
+        Some(x) => format!("{:+.1} %", 100.0 * x),
+        None => "by an unknown amount".to_owned(),
+    };
+    format!(
+        "since it was tuned, the motor's gain has changed by {}, its time constant by {}\n",
+        part(predicted.gain_moved),
+        part(predicted.a1_moved)
+    )
 }
 
 /// How the last set-point was kept to.
@@ -324,7 +343,7 @@ fn tuned(tuned: &Tuned) -> String {
     };
     format!(
         "servo: position loop {:.4} 1/s, speed loop {} V*s/rad with {} V*s/rad of back-EMF and {} V of friction fed forward\n\
-         a step of {} counts\n  predicted {}\n  measured  {}\n",
+         a step of {} counts\n  predicted {}\n  measured  {}\n{}\n",
         tuned.position_1_s,
         shown(tuned.speed_v_s_rad),
         shown(tuned.back_emf_v_s_rad),
@@ -334,7 +353,12 @@ fn tuned(tuned: &Tuned) -> String {
         tuned
             .measured
             .as_ref()
-            .map_or_else(|| "nothing: the step was given up".to_owned(), answer)
+            .map_or_else(|| "nothing: the step was given up".to_owned(), answer),
+        if tuned.kept {
+            "the servo is kept in the device's flash"
+        } else {
+            "the servo is kept until the power is cut"
+        }
     )
 }
 
@@ -416,6 +440,7 @@ pub(super) fn follow(session: &Session, args: &FollowArgs) -> Result<(), Error> 
     let mut bench = open(session, &args.port, &args.limits)?;
     let order = Order {
         course: Some(course),
+        verify_s: TRIED_S,
         ..order(session, &bench.reached, &args.limits, Kind::Follow)?
     };
     into_folder(session, &mut bench, &order, &[], &folder, &args.out)
