@@ -1,5 +1,5 @@
 // Boots an unmodified image of the Pico and closes the loop around it: its PWM drives a motor, the motor's encoder turns the lines
-// that its state machine watches, its serial port, or with --usb its USB port, is a TCP socket.
+// that its state machine watches, its serial port, or with --usb its USB port, is a TCP socket. A line on the standard input cuts the power.
 import net from "node:net";
 import { parseArgs } from "node:util";
 import { Chip } from "./chip.mjs";
@@ -74,6 +74,9 @@ net
   .listen(Number(values.port), "127.0.0.1", function () {
     console.log(`link: 127.0.0.1:${this.address().port}`);
   });
+
+// A line cuts the power for a moment.
+process.stdin.on("data", () => chip.cutPower());
 
 // No faster than the clock on the wall: a host waits in real time.
 const started = performance.now();

@@ -2,6 +2,7 @@
 // end of a sleep by an interrupt that is masked, state machines in step with the core, the true periods of timer and carrier, the
 // watchdog's reset, and USB buffers that stay the controller's until the host has filled them.
 import { readFileSync } from "node:fs";
+import { Rom } from "./rom.mjs";
 import { RP2040, USBCDC } from "./node_modules/rp2040js/dist/esm/index.js";
 import { SimulationClock } from "./node_modules/rp2040js/dist/esm/clock/simulation-clock.js";
 
@@ -57,7 +58,10 @@ export class Chip {
     this.mcu = new RP2040(this.clock);
     // Of registers that the emulator has not: the program reads noise and power there.
     this.mcu.logger = { debug() {}, warn() {}, error: console.error, info() {} };
-    load(this.mcu.flash, this.image);
+    if (this.flash) this.mcu.flash.set(this.flash);
+    else load(this.mcu.flash, this.image);
+    this.flash = this.mcu.flash;
+    this.rom = new Rom(this.mcu, this.clock);
     const watchdog = this.mcu.peripherals[WATCHDOG];
     Object.assign(watchdog, { reason, scratchData });
     this.resets = false;
@@ -78,6 +82,13 @@ export class Chip {
     this.machines();
     this.carrier = this.mcu.pwm.channels[0];
     this.turns();
+  }
+
+  // The power goes and comes back: the flash is as it was.
+  cutPower() {
+    this.wedged = false;
+    this.boot(this.clock.nanos, { reason: 0, scratchData: new Uint32Array(8) });
+    this.restarted();
   }
 
   // A period of the core's timer is a cycle longer than its reload value; the emulator's is not, and slides along the carrier.
@@ -241,7 +252,7 @@ export class Chip {
         clock.tick(Math.max(CYCLE_NS, Math.min(clock.nanosToNextAlarm || BYTE_NS, BYTE_NS)));
         const pending = core.pendingInterrupts & core.enabledInterrupts;
         if (core.pendingSystick || pending) core.waiting = false;
-      } else {
+      } else if (!this.rom.ran(core)) {
         clock.tick(core.executeInstruction() * CYCLE_NS);
       }
       this.carry();

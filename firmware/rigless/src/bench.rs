@@ -9,6 +9,7 @@ use rigless::emulator::{Driver, Error, Host, Stop};
 use rigless::session::Session;
 use rigless::time::VirtualNanos;
 use servoid_rigless::plant::{Motor, State, Terminal};
+use servoid_rigless::switch::PowerSwitch;
 
 use crate::faults::{Faults, begun};
 use crate::rig::Rig;
@@ -47,6 +48,7 @@ pub struct Bench {
     shown: i64,
     fault_shown: bool,
     restarts: usize,
+    switch: PowerSwitch,
     /// Time until the bridge's carrier turns round, ns.
     turns_in: u64,
     /// The last stop, ns.
@@ -72,6 +74,7 @@ impl Bench {
             shown: 0,
             fault_shown: false,
             restarts: usize::MAX,
+            switch: PowerSwitch::watch(),
             turns_in: u64::MAX,
             last: 0,
             started: Instant::now(),
@@ -251,7 +254,8 @@ impl Driver<Rig> for Bench {
         if begins(crystal_stops_at) {
             session.board_mut().stop_crystal(at);
         }
-        if begins(reset_at) {
+        // To a program that keeps nothing in its RAM the pin is as good.
+        if begins(reset_at) || self.switch.was_cut() {
             session.reset_by_pin(at, stop.instruction_count, host);
         }
         // A stop falls between two instructions, so it may come a little late; the next one does not.

@@ -1,3 +1,4 @@
 //! What the benches of different boards share.
 
 pub mod plant;
+pub mod switch;

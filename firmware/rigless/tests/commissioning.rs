@@ -4,9 +4,11 @@
 
 use std::env;
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use serde_json::Value;
 
@@ -88,6 +90,7 @@ impl Bench {
             .arg(image)
             .args(["--board", board])
             .args(flags)
+            .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -103,6 +106,16 @@ impl Bench {
             process,
             _report: report,
         }
+    }
+}
+
+impl Bench {
+    /// Cuts the power for a moment.
+    fn cut_power(&mut self) {
+        let switch = self.process.stdin.as_mut().expect("it was piped");
+        switch.write_all(b"power cut\n").unwrap();
+        // The image comes up, and the line as well.
+        thread::sleep(Duration::from_secs(1));
     }
 }
 
@@ -240,7 +253,7 @@ fn the_images_make_a_servo_of_a_motor() {
     let motor = &MOTORS[5];
     for board in ["stm32f427", "stm32f446"] {
         let out = folder(&format!("{board} tuned")).join("run");
-        let bench = Bench::of(board, &motor.flags());
+        let mut bench = Bench::of(board, &motor.flags());
         let output = driven("tune", &bench, motor, &out, &["--excite", "0"]);
         assert!(output.status.success(), "{board}: {output:?}");
         let tuned = &saved(&out)["tuned"];
@@ -253,6 +266,9 @@ fn the_images_make_a_servo_of_a_motor() {
             "{board}: {tuned}"
         );
         assert!(out.join("tune.csv").exists());
+        // The emulator (rigless 0.4.0) takes the time to erase a sector, and drops what the program stores in one: the board reads it again,
+        // and says so. The Picos' emulators keep it.
+        assert_eq!(tuned["kept"], false, "{board}: {tuned}");
         // The same device, still powered: far and back, and a speed.
         for (flag, set_point, within) in [
             ("--angle", 62.8, 0.02),
@@ -270,6 +286,11 @@ fn the_images_make_a_servo_of_a_motor() {
                 "{board} {value}: {reached}"
             );
         }
+        bench.cut_power();
+        let out = folder(&format!("{board} after a power cut")).join("run");
+        let output = driven("follow", &bench, motor, &out, &["--speed=80"]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(told.contains("no servo"), "{board}: {output:?}");
     }
 }
 

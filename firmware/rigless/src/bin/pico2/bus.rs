@@ -28,6 +28,10 @@ pub struct Peripherals {
     counts: bool,
 }
 
+/// Where the boot ROM leaves a function that gets the flash ready to be read, and a whole one: `bx lr`, twice.
+const BOOT_RAM: u32 = 0x400e_0000;
+const RETURN: u32 = 0x4770_4770;
+
 /// A bus for an instruction, at `now`, cycles.
 pub struct Wired<'a> {
     bus: &'a mut Bus,
@@ -57,6 +61,7 @@ impl<'a> Wired<'a> {
     fn own(&mut self, address: u32) -> Option<u32> {
         let (base, offset, _) = place(address);
         match base {
+            BOOT_RAM => Some(RETURN),
             uart::BASE => Some(self.own.uart.read(offset, self.now)),
             carrier::BASE => Some(self.own.carrier.read(offset)),
             watchdog::BASE => Some(self.own.watchdog.read(offset)),

@@ -5,7 +5,9 @@ use std::sync::atomic::Ordering;
 use rp2350_emu::{Config, Emulator};
 
 use crate::bus::{Peripherals, Wired};
+use crate::rom;
 use crate::uart;
+use crate::watchdog::Watchdog;
 
 /// Core clock, Hz.
 pub const HZ: f64 = 150e6;
@@ -17,6 +19,8 @@ const LINES: [u32; 2] = [1 << 20, 1 << 21];
 
 /// The flash and the table of vectors at its beginning; where the core looks for that; a register that tells about the chip.
 const FLASH: u32 = 0x1000_0000;
+/// The Pico 2's.
+const FLASH_SIZE: usize = 4 << 20;
 const VECTOR_TABLE: u32 = 0xe000_ed08;
 const CHIP_ID: u32 = 0x4000_0000;
 /// Cycles that the encoder's state machine gets when a line has changed: a few rounds of its program.
@@ -50,7 +54,8 @@ pub enum Stop {
 
 impl Chip {
     /// After power-up, with `flash` from the flash's beginning on.
-    pub fn new(flash: Vec<u8>) -> Self {
+    pub fn new(mut flash: Vec<u8>) -> Self {
+        flash.resize(FLASH_SIZE, 0xff);
         let own = Peripherals::default();
         let emulator = boot(&flash);
         Self {
@@ -105,10 +110,15 @@ impl Chip {
         }
         if self.wedged || core.is_halted() {
             self.now = due;
+        } else if rom::is_at(core.regs.r[15]) {
+            self.now += rom::run(emulator, &mut self.flash);
+            let core = &mut emulator.cores.expect_arm_mut()[0];
+            core.ppb.systick_advance(self.now);
+            return self.show();
         } else {
             let (until, before) = (due.min(self.now + LONGEST), core.cycles());
             let start = self.now;
-            while self.now < until && !core.is_halted() {
+            while self.now < until && !core.is_halted() && !rom::is_at(core.regs.r[15]) {
                 core.ppb.update_latest_cycles(core.cycles());
                 core.step(&mut Wired::new(bus, own, self.now));
                 self.now = start + core.cycles() - before;
@@ -116,6 +126,12 @@ impl Chip {
         }
         core.ppb.systick_advance(self.now);
         self.show();
+    }
+
+    /// The power goes and comes back: the flash is as it was.
+    pub fn cut_power(&mut self) {
+        self.reset();
+        self.own.watchdog = Watchdog::default();
     }
 
     /// As after power-up, but for what the watchdog keeps and what is on its way on the line.
@@ -172,6 +188,7 @@ fn timer_is_pending(control: u32) -> bool {
 /// A core about to run the image, as the boot ROM leaves it.
 fn boot(flash: &[u8]) -> Emulator {
     let mut emulator = Emulator::new(Config::default());
+    emulator.load_bootrom(&rom::image());
     emulator.load_flash(flash);
     let core = &mut emulator.cores.expect_arm_mut()[0];
     let word = |at: usize| u32::from_le_bytes(flash[at..at + 4].try_into().expect("four bytes"));

@@ -5,6 +5,7 @@ mod bus;
 mod carrier;
 mod chip;
 mod decode;
+mod rom;
 mod uart;
 mod watchdog;
 
@@ -22,6 +23,7 @@ use elf::ElfBytes;
 use elf::abi::PT_LOAD;
 use elf::endian::LittleEndian;
 use servoid_rigless::plant::{Motor, State, Terminal};
+use servoid_rigless::switch::PowerSwitch;
 
 use crate::chip::{Chip, HZ, Stop};
 
@@ -188,10 +190,16 @@ fn main() -> Result<()> {
         last: 0,
     };
     bench.chip.encoder(bench.lines());
+    let switch = PowerSwitch::watch();
     let mut peer = None;
     let started = Instant::now();
     while bench.chip.now < end {
         bench.run(bench.chip.now + LOOK);
+        if switch.was_cut() {
+            bench.chip.cut_power();
+            bench.advance();
+            println!("restarted at {:.4} s", bench.chip.now as f64 / HZ);
+        }
         talk(&listener, &mut peer, &mut bench.chip)?;
         // No faster than the clock on the wall: a host waits in real time.
         let due = Duration::from_secs_f64(bench.chip.now as f64 / HZ);
