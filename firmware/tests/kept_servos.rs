@@ -136,7 +136,8 @@ fn a_kept_servo_is_tried_and_follows_from_where_the_run_began() {
 #[test]
 fn another_motor_is_refused_and_the_bridge_is_open() {
     let motors = testing::length::cases(100, 30);
-    let changes: [(&str, fn(&mut firmware::plant::Motor)); 4] = [
+    type Change = fn(&mut firmware::plant::Motor);
+    let changes: [(&str, Change); 4] = [
         ("twice the inertia", |motor| motor.inertia *= 2.0),
         ("half the constant", |motor| motor.constant *= 0.5),
         ("half the supply", |motor| motor.supply *= 0.5),
@@ -155,19 +156,14 @@ fn another_motor_is_refused_and_the_bridge_is_open() {
             let mut other = Bench::new(motor);
             other.saved = bench.borrow().saved.clone();
             let other = RefCell::new(other);
-            let (begun, seen) = powered_up(&other, |host| {
+            let begun = powered_up(&other, |host| {
                 let begun = begun(host, following(&drawn, seed));
                 assert!(host.drove_in.is_none());
-                host.send(&ToDevice::SetPoint(SetPoint::End));
-                let seen = begun.is_ok().then(|| to_its_end(host).map(|r| r.verified));
-                (begun, seen)
+                begun
             });
             match begun {
                 Ok(()) => {
-                    println!(
-                        "seed {seed}: {what} was not seen: {seen:?} {:?}",
-                        drawn.motor
-                    );
+                    println!("seed {seed}: {what} was not seen");
                     passed[k] += 1;
                 }
                 Err(failure) => {

@@ -250,7 +250,10 @@ fn a_servo_outlives_a_power_cut_and_another_motor_is_refused() {
     );
     // A flash that holds something else holds no servo.
     fs::write(&flash, [1, 2, 3]).unwrap();
-    let (_, error) = follow(&Device::of(Machine::gearmotor(), &[], Some(&flash)), "nothing");
+    let (_, error) = follow(
+        &Device::of(Machine::gearmotor(), &[], Some(&flash)),
+        "nothing",
+    );
     assert!(error.expect("no servo").contains("servoid device tune"));
 }
 

@@ -1,7 +1,6 @@
 //! What follows from a fitted motor: what it predicts, what it is good for, and the servo that it makes.
 
 use super::evaluation::build;
-use super::prediction::Prediction;
 use super::stage::Stage;
 use super::{Arithmetic, Fit, Predicted, Predictors, Unknown, Verdict};
 use crate::servo::Gains;
@@ -30,7 +29,7 @@ impl<S: Arithmetic> Fit<S> {
     /// The same by motors of an earlier fit. Ends a fit under way.
     pub fn predict_by(&mut self, predictors: &Predictors, periods: u32, window: u32) -> bool {
         self.asked = false;
-        self.stage = Stage::Predict(Prediction::EMPTY);
+        self.stage.clear_prediction();
         let Stage::Predict(prediction) = &mut self.stage else {
             return false;
         };

@@ -68,6 +68,12 @@ impl Stage {
         *self = Stage::Firefly(Firefly::idle(rng::seeded(seed)));
     }
 
+    /// Becomes a prediction of nothing yet.
+    #[inline(never)]
+    pub(super) fn clear_prediction(&mut self) {
+        *self = Stage::Predict(Prediction::EMPTY);
+    }
+
     /// The search, while it runs.
     pub(super) fn searching(&mut self) -> Option<&mut dyn Optimiser<f32, MOST>> {
         match self {
